@@ -19,11 +19,14 @@ const PACKAGE = [
   ["files", "files/"],
   ["three", "three/"],
   ["nodes", "nodes/"],
+  ["potree", "potree/"],
   ["react-three-fiber", "react-three-fiber/"],
   ["deck", "deck/"],
   ["stream", "stream/"],
   ["api", "api\\.ts$"],
-  ["entries", "(index|inline|lite|worker|files|three|nodes|react-three-fiber|deck|stream)\\.ts$"],
+  ["entries", "(index|inline|lite|worker|files|three|three-webgpu|nodes|potree|react-three-fiber|deck|stream)\\.ts$"],
+  // The script without a bundler.
+  ["global", "global\\.ts$"],
   // The command uses the entries, as any user does.
   ["cli", "cli/"],
 ];
@@ -97,7 +100,10 @@ const forbidden = [
       "three, React and deck.gl are optional: whoever imports another entry need not have them. The reader of glTF is " +
       "loaded when such a file is read.",
     severity: "error",
-    from: { path: "^src/ts/", pathNot: "^src/ts/((three|nodes|react-three-fiber|deck)/|formats/read-gltf\\.ts$)" },
+    from: {
+      path: "^src/ts/",
+      pathNot: "^src/ts/((three|nodes|potree|react-three-fiber|deck)/|three-webgpu\\.ts$|formats/read-gltf\\.ts$)",
+    },
     to: { path: "node_modules/(three|@types/three|react|@types/react|@react-three|@deck\\.gl)/" },
   },
   {
@@ -111,7 +117,7 @@ const forbidden = [
     name: "one adapter's peers",
     comment: "The layer for deck.gl needs no three.js, and the filters need no deck.gl.",
     severity: "error",
-    from: { path: "^src/ts/(three|nodes|react-three-fiber)/" },
+    from: { path: "^src/ts/(three|nodes|potree|react-three-fiber)/" },
     to: { path: "(node_modules/@deck\\.gl/|^src/ts/deck/)" },
   },
   {

@@ -44,3 +44,19 @@ export async function embedWorker(): Promise<Uint8Array> {
   });
   return script!.contents;
 }
+
+/** The script for pages without a bundler: the wasm and the worker's script are in it, and nothing is fetched. */
+export async function bundleGlobal(): Promise<Uint8Array> {
+  const { outputFiles } = await build({
+    entryPoints: [inRoot("src/ts/global.ts")],
+    bundle: true,
+    minify: true,
+    format: "iife",
+    globalName: "HiddenPointRemoval",
+    target: "es2022",
+    // The addresses of files beside the modules, which it does not use.
+    define: { "import.meta.url": "document.baseURI" },
+    write: false,
+  });
+  return outputFiles[0]!.contents;
+}

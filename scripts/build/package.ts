@@ -3,7 +3,7 @@ import { copyFileSync, mkdirSync, rmSync, writeFileSync } from "node:fs";
 import { inRoot } from "../lib/paths.js";
 import { mustRun, say } from "../lib/run.js";
 import { unlessUnchanged } from "../lib/stamp.js";
-import { EMBEDDED, embedWasm, embedWorker } from "./embed.js";
+import { bundleGlobal, EMBEDDED, embedWasm, embedWorker } from "./embed.js";
 import { GLUE, MODULES } from "./wasm.js";
 
 const GENERATED = [
@@ -11,13 +11,16 @@ const GENERATED = [
   ...EMBEDDED.map((file) => `wasm/${file}`),
 ];
 
+/** The script for pages without a bundler. */
+const GLOBAL = "dist/hidden-point-removal.global.js";
+
 /** Compiles the TypeScript to the modules of the npm package and types, in dist. */
 export async function buildPackage(): Promise<void> {
   const work = {
     name: "package",
     inputs: ["src/ts", "tsconfig.base.json", "tsconfig.build.json", "package-lock.json", "scripts/build/embed.ts"],
     ignore: EMBEDDED.map((file) => `src/ts/wasm/${file}`),
-    outputs: ["dist/index.js", "dist/worker-thread.js", ...GENERATED.map((file) => `dist/${file}`)],
+    outputs: ["dist/index.js", "dist/worker-thread.js", GLOBAL, ...GENERATED.map((file) => `dist/${file}`)],
   };
   const result = await unlessUnchanged(work, async () => {
     say("Compiling the npm package…");
@@ -29,6 +32,9 @@ export async function buildPackage(): Promise<void> {
     for (const folder of Object.keys(MODULES)) mkdirSync(inRoot("dist", folder), { recursive: true });
     for (const file of GENERATED) copyFileSync(inRoot("src/ts", file), inRoot("dist", file));
     writeFileSync(inRoot("dist/worker-thread.js"), worker);
+    writeFileSync(inRoot(GLOBAL), await bundleGlobal());
+    // Only the script has it.
+    for (const file of ["global.js", "global.d.ts"]) rmSync(inRoot("dist", file));
   });
   say(`npm package: ${result}`);
 }

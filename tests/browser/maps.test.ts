@@ -399,7 +399,10 @@ describe("a filter", () => {
       })),
     );
     for (const one of found) {
-      expect(one).toMatchObject({ moving: ["map"], last: "looks", maps: 20, left: [], uniforms: 0, isOwn: false });
+      // A frame may take so long that the camera rests in between.
+      expect(one.moving).toContain("map");
+      expect(one.moving).not.toContain("draft");
+      expect(one).toMatchObject({ last: "looks", maps: 20, left: [], uniforms: 0, isOwn: false });
       expect(one.key).not.toContain("hpr");
       expect(one.all).toBeGreaterThan(1.8 * one.settled);
       // Of 8,000 points that three looks show, at most one in a hundred is left out in a frame.
@@ -448,7 +451,8 @@ describe("a filter", () => {
           "attribute vec3 position; uniform mat4 projectionMatrix, modelViewMatrix; void main() { gl_PointSize = 1.0; gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0); }",
         fragmentShader: "void main() { gl_FragColor = vec4(1.0); }",
       });
-      const run = async (material: InstanceType<typeof THREE.Material>, options: object, midway?: () => void) => {
+      type Material = InstanceType<typeof THREE.Material>;
+      const run = async (material: Material | Material[], options: object, midway?: () => void) => {
         const geometry = new THREE.BufferGeometry();
         geometry.setAttribute("position", new THREE.BufferAttribute(positions, 3));
         const points = new THREE.Points(geometry, material);
@@ -497,12 +501,13 @@ describe("a filter", () => {
         }),
         dim: await run(new THREE.PointsMaterial(flat), { mode: "dim" }),
         raw: await run(raw, {}),
+        several: await run([new THREE.PointsMaterial(flat)], {}),
         vote: await run(new THREE.PointsMaterial(flat), { vote: 6 }),
         draft: await run(new THREE.PointsMaterial(flat), { stale: "draft" }),
       };
       return { ...results, isGiven: patched.onBeforeCompile === given };
     });
-    const { patched, late, dim, raw, vote, draft, isGiven } = found;
+    const { patched, late, dim, raw, several, vote, draft, isGiven } = found;
     expect(isGiven).toBe(true);
     for (const { moving, all } of [patched, late]) {
       expect(moving.green).toBeGreaterThan(4000);
@@ -510,8 +515,65 @@ describe("a filter", () => {
     }
     expect(Math.abs(dim.moving.bright - dim.rest.bright)).toBeLessThan(0.3 * dim.rest.bright);
     expect(dim.moving.faint).toBeGreaterThan(0.6 * dim.rest.faint);
-    expect([patched, late, dim].map(({ seen }) => seen)).toEqual([["map"], ["map"], ["map"]]);
-    for (const { seen } of [raw, vote, draft]) expect(seen).not.toContain("map");
+    // A raw material without a version has the first one of the language.
+    expect(raw.all.bright).toBeGreaterThan(1.7 * raw.moving.bright);
+    for (const { seen } of [patched, late, dim, raw]) expect(seen).toEqual(["map"]);
+    for (const { seen } of [several, vote, draft]) expect(seen).not.toContain("map");
     expect(said.filter((text) => text.includes("drafts are drawn"))).toHaveLength(1);
+  });
+
+  it("draws by the map again when a lost context has come back", async () => {
+    const found = await page.evaluate(async () => {
+      const THREE = modules.three;
+      const { HiddenPointFilter } = modules["hidden-point-removal/three"];
+      const renderer = new THREE.WebGLRenderer({ preserveDrawingBuffer: true });
+      renderer.setSize(300, 300);
+      const geometry = new THREE.BufferGeometry();
+      geometry.setAttribute("position", new THREE.BufferAttribute(ball(20_000), 3));
+      const points = new THREE.Points(geometry, new THREE.PointsMaterial({ size: 1, sizeAttenuation: false }));
+      const scene = new THREE.Scene().add(points);
+      const camera = new THREE.PerspectiveCamera(40, 1, 0.1, 1000);
+      const frame = () => new Promise((resolve) => requestAnimationFrame(resolve));
+      const count = () => {
+        renderer.render(scene, camera);
+        const data = new Uint8Array(4 * 300 * 300);
+        renderer.getContext().readPixels(0, 0, 300, 300, 6408, 5121, data);
+        return data.filter((byte, i) => i % 4 === 0 && byte > 200).length;
+      };
+      // The question at rest would take the map's place.
+      const filter = new HiddenPointFilter(points, { exponent: 3 });
+      let x = 0;
+      const move = () => {
+        camera.position.set((x += 1e-3), 1, 9);
+        camera.lookAt(0, 0, 0);
+        filter.update(camera);
+      };
+      move();
+      const all = count();
+      for (let i = 0; i < 300 && filter.answer !== "map"; i++) {
+        move();
+        count();
+        await frame();
+      }
+      const before = count();
+      const loss = renderer.getContext().getExtension("WEBGL_lose_context")!;
+      loss.loseContext();
+      await frame();
+      loss.restoreContext();
+      await new Promise((resolve) => {
+        renderer.domElement.addEventListener("webglcontextrestored", resolve);
+      });
+      for (let i = 0; i < 300 && (i === 0 || filter.answer !== "map"); i++) {
+        move();
+        await frame();
+      }
+      const report = { all, before, after: count(), answer: filter.answer };
+      filter.dispose();
+      return report;
+    });
+    expect(found.answer).toBe("map");
+    expect(found.all).toBeGreaterThan(1.5 * found.before);
+    expect(found.after).toBeLessThan(1.1 * found.before);
+    expect(found.after).toBeGreaterThan(0.9 * found.before);
   });
 });

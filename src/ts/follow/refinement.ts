@@ -55,7 +55,7 @@ export class Refinement<Options = unknown> {
   /** The question that is due now. */
   get due(): Stage<Options> | undefined {
     const stage = this.#stages[this.#next];
-    const remaining = this.#movedAt + (stage?.rest ?? 0) - performance.now();
+    const remaining = (stage?.rest ?? 0) - this.stillFor;
     if (stage === undefined || stage.rest === 0 || remaining <= 0) {
       return stage;
     }
@@ -64,6 +64,11 @@ export class Refinement<Options = unknown> {
       this.#wake();
     }, remaining);
     return undefined;
+  }
+
+  /** For how many milliseconds the view has not moved. */
+  get stillFor(): number {
+    return performance.now() - this.#movedAt;
   }
 
   /** Whether the first question was asked. */

@@ -1,5 +1,5 @@
 import { compiledOnce, type InitInput } from "../instance/compile.js";
-import { configuredWasm, embedWorker } from "../instance/configure.js";
+import { configuredWasm, embed } from "../instance/configure.js";
 import { engine } from "../instance/instance.js";
 import { initFrom } from "../instance/start.js";
 import { workerText } from "../wasm/embedded-worker.js";
@@ -17,6 +17,11 @@ const embedded = compiledOnce(compileEmbedded);
  * @throws HprError (as a rejection) `load` if it cannot be compiled or started.
  */
 export function init(input?: InitInput): Promise<void> {
-  embedWorker(workerText);
+  useEmbedded();
   return initFrom(engine, configuredWasm() ?? embedded, input);
+}
+
+/** All entries, and workers, use the embedded wasm and script. */
+export function useEmbedded(): void {
+  embed(embedded, workerText);
 }

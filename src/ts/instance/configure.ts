@@ -48,8 +48,11 @@ export function configuredWasm(): OwnWasm | undefined {
   return wasm;
 }
 
-/** Keeps the worker's script as text. Workers are started from it unless {@link configure} gave an address. */
-export function embedWorker(text: string): void {
+/**
+ * Keeps a wasm of a script's own, and the worker's script as text. They are used unless {@link configure} gave others.
+ */
+export function embed(own: OwnWasm, text: string): void {
+  wasm ??= own;
   workerText = text;
 }
 

@@ -1,43 +1,18 @@
-import type { Camera, Object3D, Points } from "three";
+import type { Object3D, Points } from "three";
 
 import { describe, HprError } from "../base/errors.js";
-import type { Round } from "../follow/follower.js";
-import type { AnswerKind } from "../follow/refinement.js";
+import type { Visibility } from "../cloud/visibility.js";
+import type { AskedStage } from "../follow/refinement.js";
 import type { Place } from "../query/place.js";
-import { CameraFilter } from "../three/camera-filter.js";
+import type { VisibilityOptions } from "../query/view-options.js";
 import type { FollowedCamera } from "../three/cameras.js";
 import { requireUniformScale } from "../three/eye.js";
-import { Gathered } from "./gathered.js";
-import type { Refused } from "./node.js";
+import { MapMaterial, type PatchMaterial } from "../three/map-material.js";
+import { GatheredFilter } from "./gathered-filter.js";
+import type { CloudNode } from "./node.js";
 import { NodeHorizons } from "./node-horizons.js";
 import { NodeSet } from "./node-set.js";
 import { type HiddenPointNodesFilterOptions, readNodesOptions } from "./options.js";
-
-/** The events of a filter of nodes. */
-export interface HiddenPointNodesFilterEvents {
-  /**
-   * A new answer is drawn. `count` is the number of visible points. `nodes` is the number of nodes
-   * in the cloud. `answer` says what the answer is: a map or a draft comes before the exact one. For a map, `count`
-   * and `radius` are those of the last answer. Either `viewpoint` or `direction` is null. `radius` is 0 if the
-   * inversion has none. The viewpoint, the direction and the radius are in the root's space.
-   */
-  change: {
-    count: number;
-    nodes: number;
-    milliseconds: number;
-    viewpoint: number[] | null;
-    direction: number[] | null;
-    radius: number;
-    answer: AnswerKind;
-    camera: Camera;
-  };
-  /**
-   * A node (`points`) or a view (`points` is null) is refused. For a node, this comes only once
-   * until the node changes. For views, it comes only once until there is an answer again. Without a
-   * listener, the error is an unhandled rejection.
-   */
-  error: { error: Error; points: Points | null };
-}
 
 /**
  * Takes many `THREE.Points` as one cloud, and draws only the points that the camera sees. This is
@@ -60,40 +35,27 @@ export interface HiddenPointNodesFilterEvents {
  * options mean the same as in a `HiddenPointFilter`, but for the cloud of all nodes. Orthographic
  * cameras and several cameras are handled as in that filter, too.
  */
-export class HiddenPointNodesFilter extends CameraFilter<HiddenPointNodesFilterEvents> {
+export class HiddenPointNodesFilter extends GatheredFilter<CloudNode> {
   /** @internal */
   protected override readonly drawing: NodeSet;
-  readonly #gathered: Gathered;
   readonly #horizons: NodeHorizons;
-  /**
-   * The version of the set of nodes that the last question was about. Undefined if the question
-   * must be asked again.
-   */
-  #askedVersion: number | undefined;
-  /** Whether the cloud was lost or dropped and must be made again. */
-  #isDropped = false;
-  /** Whether the cloud could not be made. It is made again when a camera moves or the nodes change. */
-  #isFailed = false;
-  #visible = 0;
-  #radius = 0;
-  readonly #refuseNode: Refused = (error, points) => {
-    this.report({ error, points }, false);
-  };
 
   /**
    * @param root an object above all nodes. The nodes are one cloud in the space of this object, and
    *   a radius is in the units of this space.
    * @throws HprError `option`.
    */
-  constructor(root: Object3D, options?: HiddenPointNodesFilterOptions) {
+  constructor(root: Object3D, options?: HiddenPointNodesFilterOptions);
+  /** @internal */
+  constructor(root: Object3D, options: HiddenPointNodesFilterOptions | undefined, patch?: PatchMaterial);
+  constructor(root: Object3D, options?: HiddenPointNodesFilterOptions, patch: PatchMaterial = MapMaterial.of) {
     if (typeof (root as unknown) !== "object" || (root as unknown) === null || !("isObject3D" in root)) {
       throw new HprError("option", `root must be a THREE.Object3D, got ${describe(root)}`);
     }
-    const settings = readNodesOptions(options);
+    const settings = readNodesOptions(options, patch);
     requireUniformScale(root);
     super(root, settings);
-    this.drawing = new NodeSet(root, settings, this.#refuseNode);
-    this.#gathered = new Gathered(settings);
+    this.drawing = new NodeSet(root, settings, this.refuseNode);
     this.#horizons = new NodeHorizons(this.drawing, (error) => {
       this.report({ error, points: null });
       this.tell();
@@ -103,11 +65,6 @@ export class HiddenPointNodesFilter extends CameraFilter<HiddenPointNodesFilterE
   /** The indices of each node's points that are drawn, without the dimmed ones: copies. */
   get visible(): Map<Points, Uint32Array> {
     return this.drawing.drawn;
-  }
-
-  /** The number of visible points of all nodes, in the last answer. */
-  get visibleCount(): number {
-    return this.#visible;
   }
 
   /**
@@ -132,118 +89,28 @@ export class HiddenPointNodesFilter extends CameraFilter<HiddenPointNodesFilterE
 
   override dispose(): void {
     super.dispose();
-    this.#gathered.close();
     this.#horizons.clear();
   }
 
-  /** Whether the nodes are not those of the last question. @internal */
-  protected override get isStale(): boolean {
-    return this.#isChanged && !this.frozen;
-  }
-
   /** @internal */
-  protected override get isEmpty(): boolean {
-    return this.#gathered.isEmpty;
-  }
-
-  /** @internal */
-  protected override next(): Round | undefined {
-    if (this.#isDropped) {
-      this.#isDropped = false;
-      this.#askedVersion = undefined;
-    }
-    if (!this.wantsAnswer) {
-      return undefined;
-    }
-    return this.isStale ? this.#gathering() : this.#viewing(this.cameras.due(this.frozen)!);
-  }
-
-  /** @internal */
-  protected override noticeChanges(): boolean {
-    this.drawing.takeUp();
-    return this.#isChanged;
-  }
-
-  /** @internal */
-  protected override leave(camera: FollowedCamera): void {
+  protected override left(camera: FollowedCamera): void {
     this.#horizons.drop(camera);
-    if (this.#isFailed) {
-      this.#isFailed = false;
-      this.#askedVersion = undefined;
-    }
   }
 
   /** @internal */
-  protected override dropCloud(): void {
-    this.#gathered.drop();
-    this.#isDropped = true;
-  }
-
-  get #isChanged(): boolean {
-    return this.#askedVersion !== this.drawing.version;
-  }
-
-  /** Updates the cloud. After that, all cameras ask again. */
-  #gathering(): Round<void> {
-    const gathered = this.#gathered;
-    return {
-      ask: () => {
-        this.#askedVersion = this.drawing.version;
-        return gathered.follow(this.drawing.present(), this.#refuseNode);
-      },
-      use: () => {
-        this.cameras.again(gathered.points, gathered.spacing);
-        if (gathered.isEmpty) {
-          this.#visible = 0;
-        }
-        return () => {
-          this.tell();
-        };
-      },
-      isGivenUp: () => {
-        this.#isFailed = true;
-        return false;
-      },
-    };
-  }
-
-  /** Asks the cloud about a camera's view, and draws the answer. */
-  #viewing(camera: FollowedCamera): Round {
-    const gathered = this.#gathered;
-    const version = this.#askedVersion;
-    return this.view(
-      camera,
-      (place, stage) => gathered.see(place, stage),
-      (answer, stage, place) => {
-        const { radius } = answer;
-        let count = 0;
-        const horizon = this.#horizons.begin(camera, place, answer, stage, version);
-        for (const { node, own, scores } of gathered.split(answer)) {
-          if (this.drawing.isPresent(node) && node.display.drawn.isSame) {
-            count += node.display.answer(camera, own, false, scores);
-            if (own.length > 0) horizon?.add(node, own);
-          }
-        }
-        gathered.recycle(answer);
-        this.#visible = count;
-        this.#radius = radius;
-        return this.#told(place);
-      },
-      (texture, place) => {
-        this.drawing.map(camera, texture);
-        return this.#told(place);
-      },
+  protected override taking(
+    camera: FollowedCamera,
+    place: Place,
+    answer: Visibility,
+    stage: AskedStage<VisibilityOptions>,
+    version: number | undefined,
+  ): ((node: CloudNode, own: Uint32Array) => void) | undefined {
+    const horizon = this.#horizons.begin(camera, place, answer, stage, version);
+    return (
+      horizon &&
+      ((node, own) => {
+        horizon.add(node, own);
+      })
     );
-  }
-
-  #told({ from, isDirection }: Place) {
-    const place = [...from];
-    return {
-      count: this.#visible,
-      nodes: this.#gathered.nodes,
-      viewpoint: isDirection ? null : place,
-      direction: isDirection ? place : null,
-      radius: this.#radius,
-    };
   }
 }

@@ -1,3 +1,5 @@
+import type { Points } from "three";
+
 import { asError, HprError } from "../base/errors.js";
 import { allocating, concatenated } from "../base/memory.js";
 import { type Cloud, prepareCloud, see, type Seen } from "../three/cloud.js";
@@ -5,8 +7,20 @@ import type { AskedStage } from "../follow/refinement.js";
 import type { Visibility } from "../cloud/visibility.js";
 import type { Place } from "../query/place.js";
 import type { VisibilityOptions } from "../query/view-options.js";
-import type { CloudNode, Refused } from "./node.js";
-import type { NodesSettings } from "./options.js";
+import type { FilterSettings } from "../three/options.js";
+
+/** One part of the cloud, as the viewer has it. */
+export interface GatheredNode {
+  /** The object that the viewer draws. */
+  readonly points: Points;
+  /** Grows with every change of the points. */
+  readonly revision: number;
+  /** Reads the positions in the cloud's space. */
+  read(): Float32Array | Float64Array;
+}
+
+/** Is called with points that cannot be a node. */
+export type Refused = (error: Error, points: Points) => void;
 
 /** The indices of a node's points in the cloud, and the revision of the node that they belong to. */
 interface Span {
@@ -16,8 +30,8 @@ interface Span {
 }
 
 /** The part of an answer that belongs to one node. */
-interface NodeAnswer {
-  node: CloudNode;
+interface NodeAnswer<Node> {
+  node: Node;
   /** The ascending indices of its visible points. */
   own: Uint32Array;
   /** The scores of all its points. Undefined if the answer has none. */
@@ -36,16 +50,16 @@ const FEW = 10_000;
  *
  *      indices   [ node 3 …… | removed …… | node 1 …… | node 7 …… ]
  */
-export class Gathered {
-  readonly #settings: NodesSettings;
+export class Gathered<Node extends GatheredNode> {
+  readonly #settings: FilterSettings;
   #cloud: Cloud | undefined;
   /** In the order of their indices. */
-  readonly #spans = new Map<CloudNode, Span>();
+  readonly #spans = new Map<Node, Span>();
   #length = 0;
   #removed = 0;
   #isClosed = false;
 
-  constructor(settings: NodesSettings) {
+  constructor(settings: FilterSettings) {
     this.#settings = settings;
   }
 
@@ -63,7 +77,7 @@ export class Gathered {
    *
    * @throws HprError (as a rejection) the errors of the clouds. Then this cloud is dropped.
    */
-  async follow(nodes: readonly CloudNode[], refused: Refused): Promise<void> {
+  async follow(nodes: readonly Node[], refused: Refused): Promise<void> {
     const gone = this.#leave(nodes);
     if (this.#removed > FEW + this.#length / 2) {
       this.drop();
@@ -100,7 +114,7 @@ export class Gathered {
   }
 
   /** Splits an answer by node. The result has the indices and the scores of each node's own points. */
-  *split({ indices, scores }: Visibility): Generator<NodeAnswer> {
+  *split({ indices, scores }: Visibility): Generator<NodeAnswer<Node>> {
     let from = 0;
     for (const [node, { first, count, revision }] of this.#spans) {
       while (from < indices.length && indices[from]! < first) from++;
@@ -146,7 +160,7 @@ export class Gathered {
   }
 
   /** Forgets nodes that are gone or have changed, and returns the indices of their points. */
-  #leave(nodes: readonly CloudNode[]): Uint32Array {
+  #leave(nodes: readonly Node[]): Uint32Array {
     const present = new Set(nodes);
     const left = [...this.#spans].filter(([node, { revision }]) => !present.has(node) || node.revision !== revision);
     const count = left.reduce((sum, [, span]) => sum + span.count, 0);
@@ -161,7 +175,7 @@ export class Gathered {
   }
 
   /** Reads the points of new nodes. They get the next indices. */
-  #read(nodes: readonly CloudNode[], refused: Refused): Float64Array {
+  #read(nodes: readonly Node[], refused: Refused): Float64Array {
     const parts: (Float32Array | Float64Array)[] = [];
     for (const node of nodes) {
       if (this.#spans.has(node)) {

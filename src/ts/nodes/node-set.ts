@@ -1,19 +1,25 @@
 import type { Object3D, Points } from "three";
 
 import { isDimmed } from "../three/dimmed.js";
-import type { MapTexture } from "../three/mapped-points.js";
+import type { VisibilityMap } from "../cloud/visibility-map.js";
+import { MapTextures } from "../three/mapped-points.js";
 import { requirePoints } from "../three/options.js";
-import { CloudNode, type Refused } from "./node.js";
+import type { NodesDrawing } from "./gathered-filter.js";
+import type { Refused } from "./gathered.js";
+import { CloudNode } from "./node.js";
 import type { NodesSettings } from "./options.js";
 import { Places } from "./place.js";
 
 /** The present nodes. The set is checked in every frame. If there is no change, nothing is allocated. */
-export class NodeSet {
+export class NodeSet implements NodesDrawing<CloudNode> {
   readonly #root: Object3D;
   readonly #settings: NodesSettings;
   readonly #refused: Refused;
   readonly #places: Places;
   readonly #nodes = new Map<Points, CloudNode>();
+  readonly #textures = new MapTextures();
+  /** The last map for each camera. New nodes are drawn by it. */
+  readonly #maps = new Map<unknown, VisibilityMap>();
   /**
    * Points that were refused because they had a filter already or could not be dimmed. The geometry
    * and the material that they had then are kept with them.
@@ -56,6 +62,7 @@ export class NodeSet {
 
   /** Draws all points for this camera until its next answer. */
   setStale(camera: unknown): void {
+    this.#maps.delete(camera);
     for (const { display } of this.#nodes.values()) display.setStale(camera);
   }
 
@@ -68,13 +75,21 @@ export class NodeSet {
   }
 
   /** Draws all nodes by one map until the camera's next answer. */
-  map(camera: unknown, texture: MapTexture): void {
-    for (const node of this.#nodes.values()) node.map(camera, texture);
+  map(camera: unknown, map: VisibilityMap): void {
+    this.#maps.set(camera, map);
+    for (const node of this.#nodes.values()) node.map(camera, map);
+  }
+
+  answer(camera: unknown, node: CloudNode, own: Uint32Array, scores: Float32Array | undefined): number | undefined {
+    const isSame = this.isPresent(node) && node.display.drawn.isSame;
+    return isSame ? node.display.answer(camera, own, false, scores) : undefined;
   }
 
   /** Forgets the answers for this camera. */
   drop(camera: unknown): void {
     for (const { display } of this.#nodes.values()) display.drop(camera);
+    this.#textures.drop(camera);
+    this.#maps.delete(camera);
   }
 
   /** The indices of the points that are drawn, by node. */
@@ -126,6 +141,7 @@ export class NodeSet {
   dispose(): void {
     for (const { display } of this.#nodes.values()) display.dispose();
     this.#nodes.clear();
+    this.#textures.dispose();
   }
 
   #takeUpBelow(object: Object3D): void {
@@ -157,9 +173,10 @@ export class NodeSet {
       return undefined;
     }
     try {
-      const node = new CloudNode(points, this.#places, this.#settings);
+      const node = new CloudNode(points, this.#places, this.#settings, this.#textures);
       node.display.enabled = this.#enabled;
       node.display.select(this.#camera);
+      for (const [camera, map] of this.#maps) node.map(camera, map);
       this.#nodes.set(points, node);
       this.#version += 1;
       return node;

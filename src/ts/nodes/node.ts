@@ -4,18 +4,17 @@ import { nonFinite } from "../instance/failure.js";
 import { versionOf } from "../three/attribute.js";
 import { Display } from "../three/display.js";
 import { isFiltered, requireUnfiltered } from "../three/drawn-points.js";
-import type { MapTexture } from "../three/mapped-points.js";
+import type { VisibilityMap } from "../cloud/visibility-map.js";
+import type { MapTextures } from "../three/mapped-points.js";
+import type { GatheredNode } from "./gathered.js";
 import type { NodesSettings } from "./options.js";
 import type { Place, Places } from "./place.js";
 import { straysIn } from "./strays.js";
 
 const IDENTITY = new Matrix4();
 
-/** Is called with points that cannot be a node. */
-export type Refused = (error: Error, points: Points) => void;
-
 /** One node: its points, their place in the root's space, and the part of them that is drawn. */
-export class CloudNode {
+export class CloudNode implements GatheredNode {
   readonly points: Points;
   readonly display: Display;
   /** The last frame in which the node was present. */
@@ -32,10 +31,10 @@ export class CloudNode {
   #isRead = false;
 
   /** @throws HprError `option` if its geometry has a filter already, or if its material cannot be dimmed. */
-  constructor(points: Points, places: Places, settings: NodesSettings) {
+  constructor(points: Points, places: Places, settings: NodesSettings, textures: MapTextures) {
     requireUnfiltered(points.geometry);
     this.points = points;
-    this.display = new Display(points, settings);
+    this.display = new Display(points, settings, textures);
     this.#settings = settings;
     this.#places = places;
     this.#place = places.of(points);
@@ -89,8 +88,9 @@ export class CloudNode {
   }
 
   /** Draws the node by a map of the whole cloud. */
-  map(camera: unknown, texture: MapTexture): void {
-    this.display.map(camera, texture, this.#matrix);
+  map(camera: unknown, map: VisibilityMap): void {
+    this.#places.versionOf(this.#place);
+    this.display.map(camera, map, this.#matrix);
   }
 
   #isUnchanged(): boolean {

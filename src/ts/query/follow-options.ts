@@ -50,7 +50,7 @@ export const FOLLOW_OPTIONS = ["settle", "stale", "moveThreshold"] as const;
 /** Below this number of points, neither drafts nor maps are asked. */
 const DRAFTED_FROM = 10_000;
 /** A viewpoint that has not moved for this number of milliseconds is at rest. */
-const REST = 100;
+export const REST = 100;
 /** With one of these options, the exact answer of the view itself is the final one. */
 const FINAL_OPTIONS = ["radius", "exponent", "inversion", "looks", "draft", "sample"] as const;
 

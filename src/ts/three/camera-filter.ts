@@ -1,9 +1,10 @@
-import { type Camera, EventDispatcher, type EventListener, type Object3D } from "three";
+import type { Camera } from "three";
 
 import { HprError } from "../base/errors.js";
 import { addTag } from "../base/tag.js";
 import type { Visibility } from "../cloud/visibility.js";
 import { VisibilityMap } from "../cloud/visibility-map.js";
+import { Events as Sender } from "../follow/events.js";
 import { Follower, type Round } from "../follow/follower.js";
 import { Readiness } from "../follow/readiness.js";
 import { type AnswerKind, type AskedStage, isStandIn } from "../follow/refinement.js";
@@ -12,9 +13,8 @@ import type { Place } from "../query/place.js";
 import type { VisibilityOptions } from "../query/view-options.js";
 import { type FollowedCamera, FollowedCameras } from "./cameras.js";
 import type { Seen } from "./cloud.js";
-import type { MapTexture } from "./mapped-points.js";
+import type { Space } from "./eye.js";
 
-type Name<Events> = Extract<keyof Events, string>;
 interface FilterEvents {
   change: { count: number; milliseconds: number; answer: AnswerKind; camera: Camera };
   error: { error: Error };
@@ -38,7 +38,7 @@ export interface Drawing {
   /** Whether maps can be drawn. Undefined until points were drawn once. */
   readonly isAble: boolean | undefined;
   /** Draws by a map for this camera until its next answer. */
-  map(camera: unknown, texture: MapTexture): void;
+  map(camera: unknown, map: VisibilityMap): void;
   /** Forgets the answers for this camera. */
   drop(camera: unknown): void;
   dispose(): void;
@@ -48,7 +48,7 @@ export interface Drawing {
  * What the filters have in common: the cameras, the questions about their views, losses, refusals and listeners.
  * An error without a listener becomes an unhandled rejection, like the error of any promise that nobody awaits.
  */
-export abstract class CameraFilter<Events extends FilterEvents> extends EventDispatcher<Events> {
+export abstract class CameraFilter<Events extends FilterEvents> extends Sender<Events> {
   /**
    * While true, the filter asks about no new view, even if the camera moves. An answer that is on
    * its way is still drawn, and so are better answers for the same view.
@@ -80,9 +80,8 @@ export abstract class CameraFilter<Events extends FilterEvents> extends EventDis
   });
   /** @internal */
   protected abstract readonly drawing: Drawing;
-  readonly #object: Object3D;
+  readonly #object: Space;
   readonly #settings: FollowSettings;
-  readonly #heard = new Set<unknown>();
   /** The errors that listeners have not received yet. They are sent last, because listeners may throw. */
   readonly #untold: { event: Events["error"]; isOfView: boolean }[] = [];
   /** Whether a camera has moved since the cloud was lost. */
@@ -95,7 +94,7 @@ export abstract class CameraFilter<Events extends FilterEvents> extends EventDis
   }
 
   /** `object` has the space of the cloud. */
-  constructor(object: Object3D, settings: FollowSettings) {
+  constructor(object: Space, settings: FollowSettings) {
     super();
     this.#object = object;
     this.#settings = settings;
@@ -188,22 +187,6 @@ export abstract class CameraFilter<Events extends FilterEvents> extends EventDis
     this.readiness.reject(new HprError("disposed", "this filter has been disposed of"), true);
   }
 
-  /** Calls the listener with each event of that type. */
-  override addEventListener<T extends Name<Events>>(type: T, listener: EventListener<Events[T], T, this>): void {
-    if (type === "error") {
-      this.#heard.add(listener);
-    }
-    super.addEventListener(type, listener);
-  }
-
-  /** Stops calling the listener. */
-  override removeEventListener<T extends Name<Events>>(type: T, listener: EventListener<Events[T], T, this>): void {
-    if (type === "error") {
-      this.#heard.delete(listener);
-    }
-    super.removeEventListener(type, listener);
-  }
-
   /** Whether the points are not those of the cloud. @internal */
   protected abstract get isStale(): boolean;
 
@@ -240,7 +223,7 @@ export abstract class CameraFilter<Events extends FilterEvents> extends EventDis
     camera: FollowedCamera,
     ask: (place: Place, stage: AskedStage<VisibilityOptions>) => Seen | Promise<Seen>,
     draw: (answer: Visibility, stage: AskedStage<VisibilityOptions>, place: Place) => Told | undefined,
-    drawMap: (texture: MapTexture, place: Place) => Told | undefined,
+    drawMap: (map: VisibilityMap, place: Place) => Told | undefined,
   ): Round<Seen> {
     const begun = performance.now();
     const { place } = camera.eye;
@@ -251,8 +234,10 @@ export abstract class CameraFilter<Events extends FilterEvents> extends EventDis
         if (isOutdated) {
           return undefined;
         }
-        const drawn =
-          answer instanceof VisibilityMap ? drawMap(camera.take(answer), place) : draw(answer, stage, place);
+        if (answer instanceof VisibilityMap) {
+          camera.map = answer;
+        }
+        const drawn = answer instanceof VisibilityMap ? drawMap(answer, place) : draw(answer, stage, place);
         if (drawn === undefined) {
           return undefined;
         }
@@ -266,7 +251,7 @@ export abstract class CameraFilter<Events extends FilterEvents> extends EventDis
         const change = { ...drawn, milliseconds, answer: stage.kind, camera: camera.camera };
         return () => {
           this.tell();
-          this.dispatchEvent({ type: "change", ...change } as never);
+          this.send("change" as never, change as never);
         };
       },
     );
@@ -288,13 +273,13 @@ export abstract class CameraFilter<Events extends FilterEvents> extends EventDis
   /** @internal */
   protected tell(): void {
     for (const { event, isOfView } of this.#untold.splice(0)) {
-      const isHeard = this.#heard.size > 0;
+      const isHeard = this.hears("error" as never);
       if (isOfView) {
         this.readiness.reject(event.error, isHeard);
       } else if (!isHeard) {
         void Promise.reject(event.error);
       }
-      this.dispatchEvent({ type: "error", ...event } as never);
+      this.send("error" as never, event as never);
     }
   }
 }

@@ -1,12 +1,11 @@
-import type { Camera, Object3D } from "three";
+import type { Camera } from "three";
 
-import { type AnswerKind, type AskedStage, isStandIn, Refinement } from "../follow/refinement.js";
-import { type FollowSettings, stagesFor } from "../query/follow-options.js";
+import { type AnswerKind, type AskedStage, isStandIn, Refinement, type Stage } from "../follow/refinement.js";
+import { type FollowSettings, REST, stagesFor } from "../query/follow-options.js";
 import type { VisibilityMap } from "../cloud/visibility-map.js";
 import { isFarFrom, type Place } from "../query/place.js";
 import type { VisibilityOptions } from "../query/view-options.js";
-import { Eye, requireCamera } from "./eye.js";
-import { MapTexture } from "./mapped-points.js";
+import { Eye, requireCamera, type Space } from "./eye.js";
 
 /** One camera's view of a cloud, and how far its answers have come. */
 export class FollowedCamera {
@@ -19,7 +18,7 @@ export class FollowedCamera {
   drawnFrom: Place | undefined;
   before: Place | undefined;
   /** The last map for this camera. */
-  texture: MapTexture | undefined;
+  map: VisibilityMap | undefined;
 
   constructor(camera: Camera, eye: Eye, refinement: Refinement<VisibilityOptions>) {
     this.camera = camera;
@@ -32,6 +31,11 @@ export class FollowedCamera {
     return this.drawn?.kind ?? null;
   }
 
+  /** Whether the view has moved a moment ago. */
+  get isMoving(): boolean {
+    return this.refinement.stillFor < REST;
+  }
+
   /** Whether the answer that is drawn belongs to the camera's present view. */
   get isCurrent(): boolean {
     return this.drawn?.isCurrent() ?? false;
@@ -39,14 +43,9 @@ export class FollowedCamera {
 
   /** Whether the answer that is drawn is older than a frame, and from too far away to stand in. */
   get isFarOff(): boolean {
-    const { texture, drawnFrom, before } = this;
-    const isOld = texture !== undefined && drawnFrom !== undefined && before !== undefined && !this.isCurrent;
-    return isOld && isFarFrom(drawnFrom, before, texture.map.center);
-  }
-
-  /** Takes a map up, in the texture of the last one. */
-  take(map: VisibilityMap): MapTexture {
-    return (this.texture = new MapTexture(map, this.texture));
+    const { map, drawnFrom, before } = this;
+    const isOld = map !== undefined && drawnFrom !== undefined && before !== undefined && !this.isCurrent;
+    return isOld && isFarFrom(drawnFrom, before, map.center);
   }
 }
 
@@ -97,14 +96,14 @@ export class FollowedCameras {
   }
 
   /** Reads the camera's place in the object's space. Returns whether it has moved. */
-  look(followed: FollowedCamera, object: Object3D): boolean {
+  look(followed: FollowedCamera, object: Space): boolean {
     followed.eye.look(object, followed.camera);
     followed.before = followed.eye.isKnown ? followed.eye.place : undefined;
     if (!followed.eye.isNew) {
       return false;
     }
     followed.eye.note();
-    this.#begin(followed);
+    followed.refinement.moved(this.#stagesFor(followed));
     return true;
   }
 
@@ -113,8 +112,11 @@ export class FollowedCameras {
     this.#points = points;
     this.#spacing = spacing;
     for (const followed of this.#cameras.values()) {
-      followed.eye.spacing = spacing;
-      this.#begin(followed);
+      const { eye, refinement, isMoving } = followed;
+      eye.spacing = spacing;
+      const stages = this.#stagesFor(followed);
+      // At rest, the exact answer comes at once: a map would only delay it.
+      refinement.begin(stages, stages[0]?.kind === "map" && !isMoving ? 1 : 0);
     }
   }
 
@@ -143,15 +145,11 @@ export class FollowedCameras {
   }
 
   stop(): void {
-    for (const { refinement, texture } of this.#cameras.values()) {
-      refinement.stop();
-      texture?.dispose();
-    }
+    for (const { refinement } of this.#cameras.values()) refinement.stop();
   }
 
-  #begin({ refinement, eye }: FollowedCamera): void {
-    const isMapped = this.#drawsMaps() && !eye.isDirection;
-    refinement.moved(stagesFor(this.#settings, this.#points, isMapped));
+  #stagesFor({ eye }: FollowedCamera): readonly Stage<VisibilityOptions>[] {
+    return stagesFor(this.#settings, this.#points, this.#drawsMaps() && !eye.isDirection);
   }
 
   #added(camera: Camera): FollowedCamera {
@@ -163,7 +161,6 @@ export class FollowedCameras {
       const [oldest, given] = this.#cameras.entries().next().value!;
       this.#cameras.delete(oldest);
       given.refinement.stop();
-      given.texture?.dispose();
       this.#dropped(given);
     }
     return followed;

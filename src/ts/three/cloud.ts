@@ -44,8 +44,7 @@ export function see(
 ): Seen | Promise<Seen> {
   const asked = cloud instanceof WorkerPointCloud ? { ...options, signal } : options;
   if (kind === "map") {
-    // A shader has the positions as the geometry has them.
-    return cloud.visibilityMap(from, { ...asked, origin: [0, 0, 0] });
+    return cloud.visibilityMap(from, asked);
   }
   return isDirection ? cloud.visibleFromDirection(from, asked) : cloud.visibleFrom(from, asked);
 }

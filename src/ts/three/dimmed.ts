@@ -3,6 +3,7 @@ import { type BufferAttribute, BufferGeometry, type Material, Points, type Point
 import { describe, HprError } from "../base/errors.js";
 import type { DrawnPoints } from "./drawn-points.js";
 import { MappedPoints, type MapTexture } from "./mapped-points.js";
+import type { FilterSettings } from "./options.js";
 import { DIMMED, type Shades } from "./shades.js";
 import { type ColorAttribute, SoftColors } from "./soft-colors.js";
 
@@ -30,12 +31,12 @@ export class DimmedPoints {
   #isShown = false;
 
   /** @throws HprError `option` if the material cannot be dimmed. */
-  constructor(points: Points, material: Material | undefined, byScore: boolean) {
+  constructor(points: Points, { dimMaterial, dimsByScore, patch }: FilterSettings) {
     this.#points = points;
-    this.#given = material;
-    this.#colors = byScore ? new SoftColors() : undefined;
-    this.#child = new Points(new BufferGeometry(), material ?? this.#copy());
-    this.#mapped = new MappedPoints(this.#child, -1);
+    this.#given = dimMaterial;
+    this.#colors = dimsByScore ? new SoftColors() : undefined;
+    this.#child = new Points(new BufferGeometry(), dimMaterial ?? this.#copy());
+    this.#mapped = new MappedPoints(this.#child, patch!, -1);
     dimmed.add(this.#child);
     this.#child.name = "hidden points";
     this.#child.raycast = () => undefined;

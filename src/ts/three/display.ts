@@ -2,7 +2,8 @@ import type { Points } from "three";
 
 import { DimmedPoints } from "./dimmed.js";
 import { DrawnPoints } from "./drawn-points.js";
-import { MappedPoints, type MapTexture } from "./mapped-points.js";
+import { MappedPoints, type MapTexture, MapTextures } from "./mapped-points.js";
+import type { VisibilityMap } from "../cloud/visibility-map.js";
 import type { FilterSettings } from "./options.js";
 import { indicesOver } from "./shades.js";
 
@@ -20,20 +21,28 @@ export class Display {
   /** Undefined if no maps are asked. */
   readonly #mapped: MappedPoints | undefined;
   readonly #maps = new Map<unknown, Mapped>();
+  readonly #textures: MapTextures;
+  readonly #ownTextures: MapTextures | undefined;
   #camera: unknown;
   readonly #threshold: number | undefined;
   #enabled = true;
   /** The layers of the points, while they are not drawn because they wait for their first answer. */
   #layers: number | undefined;
 
-  /** @throws HprError `option` if the material cannot be dimmed. */
-  constructor(points: Points, settings: FilterSettings) {
-    const { dim, dimsByScore, dimMaterial, threshold, mapped } = settings;
+  /**
+   * `textures` are shared with other displays.
+   *
+   * @throws HprError `option` if the material cannot be dimmed.
+   */
+  constructor(points: Points, settings: FilterSettings, textures?: MapTextures) {
+    const { dim, threshold, mapped, patch } = settings;
     this.#points = points;
-    this.#dimmed = dim ? new DimmedPoints(points, dimMaterial, dimsByScore) : undefined;
+    this.#dimmed = dim ? new DimmedPoints(points, settings) : undefined;
     this.#threshold = threshold;
-    this.#mapped = mapped && new MappedPoints(points);
+    this.#mapped = mapped && new MappedPoints(points, patch!);
     this.drawn = new DrawnPoints(points, settings);
+    this.#ownTextures = textures === undefined ? new MapTextures() : undefined;
+    this.#textures = textures ?? this.#ownTextures!;
   }
 
   /** While false, everything is drawn. */
@@ -95,8 +104,8 @@ export class Display {
   }
 
   /** Draws by a map for this camera until its next answer. `matrix`: from the points' space to the map's. */
-  map(camera: unknown, texture: MapTexture, matrix?: readonly number[]): void {
-    this.#maps.set(camera, { texture, matrix });
+  map(camera: unknown, map: VisibilityMap, matrix?: readonly number[]): void {
+    this.#maps.set(camera, { texture: this.#textures.of(camera, map), matrix });
     this.isPending = false;
     this.#show();
   }
@@ -112,6 +121,7 @@ export class Display {
   drop(camera: unknown): void {
     this.drawn.drop(camera);
     this.#maps.delete(camera);
+    this.#textures.drop(camera);
   }
 
   /** The indices of the points that are drawn, without the dimmed ones. */
@@ -167,6 +177,7 @@ export class Display {
     this.leave();
     this.#mapped?.dispose();
     this.#dimmed?.dispose();
+    this.#ownTextures?.dispose();
   }
 
   get #shownMap(): Mapped | undefined {

@@ -88,7 +88,8 @@ export class DrawnPoints {
 
   /** The numbers of all points, without those that a map hides. `place`: from the points' space to the map's. */
   drawnBy(map: VisibilityMap, place?: readonly number[]): Uint32Array {
-    const hidden = map.hides(readPositions(this.#taken!.position, this.#ids, place).numbers);
+    const position = this.#taken?.position ?? requirePositions(this.#points.geometry.attributes["position"]);
+    const hidden = map.hides(readPositions(position, this.#ids, place).numbers);
     const numbers = this.#ids ?? Uint32Array.from(hidden, (_, i) => i);
     return numbers.filter((_, i) => hidden[i] === 0);
   }

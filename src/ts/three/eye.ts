@@ -1,4 +1,4 @@
-import type { Camera, Object3D } from "three";
+import type { Camera, Matrix4, Object3D } from "three";
 
 import { describe, HprError } from "../base/errors.js";
 import type { Place } from "../query/place.js";
@@ -9,6 +9,9 @@ const DISTORTION = 1e-5;
 const TURN = 1e-3;
 /** The relative rounding error of world coordinates after the product of several matrices. */
 const ROUNDING = 1e-14;
+
+/** The space of a cloud: that of an object, or the world. */
+export type Space = Pick<Object3D, "updateWorldMatrix"> & { readonly matrixWorld: Pick<Matrix4, "elements"> };
 
 /**
  * The place that a camera looks from, or the direction that it looks along, in the space of the
@@ -27,7 +30,7 @@ export class Eye {
   }
 
   /** @throws HprError `option` for a value that is not a camera, or a scale that is not uniform. */
-  look(points: Object3D, camera: Camera): void {
+  look(points: Space, camera: Camera): void {
     requireCamera(camera);
     points.updateWorldMatrix(true, false);
     camera.updateWorldMatrix(true, false);

@@ -7,6 +7,7 @@ import { type Cloud, prepareCloud, see } from "./cloud.js";
 import { Display } from "./display.js";
 import { requireUnfiltered } from "./drawn-points.js";
 import { requireUniformScale } from "./eye.js";
+import { MapMaterial, type PatchMaterial } from "./map-material.js";
 import { type FilterSettings, type HiddenPointFilterOptions, readFilterOptions, requirePoints } from "./options.js";
 
 /** The events of a filter. */
@@ -67,9 +68,12 @@ export class HiddenPointFilter extends CameraFilter<HiddenPointFilterEvents> {
    * @throws HprError `option`, `positions-type`, `too-large`. Errors that only the core can find
    *   (`non-finite`, the range of an option) may reject `ready` instead.
    */
-  constructor(points: Points, options?: HiddenPointFilterOptions) {
+  constructor(points: Points, options?: HiddenPointFilterOptions);
+  /** @internal */
+  constructor(points: Points, options: HiddenPointFilterOptions | undefined, patch?: PatchMaterial);
+  constructor(points: Points, options?: HiddenPointFilterOptions, patch: PatchMaterial = MapMaterial.of) {
     requirePoints(points);
-    const settings = readFilterOptions(options);
+    const settings = readFilterOptions(options, patch);
     requireUnfiltered(points.geometry);
     requireUniformScale(points);
     super(points, settings);
@@ -122,11 +126,11 @@ export class HiddenPointFilter extends CameraFilter<HiddenPointFilterEvents> {
         this.#count = count;
         return { count };
       },
-      (texture) => {
+      (map) => {
         if (!this.drawing.drawn.isSame) {
           return undefined;
         }
-        this.drawing.map(camera, texture);
+        this.drawing.map(camera, map);
         return { count: this.#count };
       },
     );

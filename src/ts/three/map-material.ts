@@ -1,6 +1,6 @@
 import { type DataTexture, type IUniform, type Material, Matrix3, Vector3, Vector4, type WebGLRenderer } from "three";
 
-import { GLSL } from "../cloud/visibility-shader.js";
+import { withTest } from "./map-shader.js";
 
 /** The uniforms that a patched material has. They are set for each object, right before it is drawn. */
 export interface MapUniforms {
@@ -12,17 +12,41 @@ export interface MapUniforms {
   /** The viewpoint in the space of the points, and the turn from there to the space of the map. */
   hprEye: IUniform<Vector3>;
   hprTurn: IUniform<Matrix3>;
+  /** The height of a texel, as a share of the texture's. */
+  hprRow: IUniform<number>;
 }
 
+export function mapUniforms(): MapUniforms {
+  return {
+    hprMode: { value: 0 },
+    hprDepths: { value: null },
+    hprMargins: { value: new Vector4() },
+    hprViewpoint: { value: new Vector3() },
+    hprEye: { value: new Vector3() },
+    hprTurn: { value: new Matrix3() },
+    hprRow: { value: 1 },
+  };
+}
+
+/** A material that can leave out hidden points, as `uniforms` say. */
+export interface MapPatch {
+  readonly uniforms: MapUniforms;
+  /** Whether its shader was patched. Undefined until it is compiled. */
+  readonly isPatched: boolean | undefined;
+  /** Patches the material again if somebody else has patched it. Called in every frame. */
+  follow(): void;
+  /** One user less. With the last one, the material is as it was before. */
+  leave(): void;
+}
+
+/** Patches a material for one more user. */
+export type PatchMaterial = (material: Material) => MapPatch;
+
 type Shader = Parameters<Material["onBeforeCompile"]>[0];
-type Patched = Material & { isRawShaderMaterial?: boolean; uniforms?: Record<string, IUniform>; glslVersion?: string };
+type Patched = Material & { uniforms?: Record<string, IUniform> };
 
 /** A hidden point is moved out of the picture before anything else is computed for it. */
 const MAIN = `
-uniform highp float hprMode;
-uniform highp vec3 hprEye;
-uniform highp mat3 hprTurn;
-${GLSL.replace("bool hidden(", "bool hprHidden(")}
 void main() {
   if (hprMode != 0.0 && (hprMode > 0.0) == hprHidden(hprTurn * (position - hprEye))) {
     gl_Position = vec4(0.0, 0.0, 2.0, 1.0);
@@ -31,19 +55,10 @@ void main() {
   hprMain();
 }
 `;
-const MAIN_NAME = /\bvoid\s+main\s*\(\s*(?:void)?\s*\)/;
 
 /** A material whose vertex shader can leave out hidden points. Filters that share a material share this. */
-export class MapMaterial {
-  readonly uniforms: MapUniforms = {
-    hprMode: { value: 0 },
-    hprDepths: { value: null },
-    hprMargins: { value: new Vector4() },
-    hprViewpoint: { value: new Vector3() },
-    hprEye: { value: new Vector3() },
-    hprTurn: { value: new Matrix3() },
-  };
-  /** Whether its shader was patched. Undefined until it is compiled. */
+export class MapMaterial implements MapPatch {
+  readonly uniforms = mapUniforms();
   isPatched: boolean | undefined;
   readonly #material: Patched;
   #users = 0;
@@ -58,24 +73,19 @@ export class MapMaterial {
   }
 
   /** The patch of this material, for one more user. */
-  static of(material: Material): MapMaterial {
-    let known = this.#known.get(material);
-    if (known === undefined) {
-      known = new MapMaterial(material);
-      this.#known.set(material, known);
-    }
+  static readonly of = (material: Material): MapMaterial => {
+    const known = MapMaterial.#known.get(material) ?? new MapMaterial(material);
+    MapMaterial.#known.set(material, known);
     known.#users += 1;
     return known;
-  }
+  };
 
-  /** Patches the material again if somebody else has patched it. Called in every frame. */
   follow(): void {
     if (this.#material.onBeforeCompile !== this.#compile || this.#material.customProgramCacheKey !== this.#key) {
       this.#patch();
     }
   }
 
-  /** One user less. With the last one, the material is as it was before. */
   leave(): void {
     this.#users -= 1;
     if (this.#users > 0) {
@@ -130,18 +140,13 @@ export class MapMaterial {
   }
 
   #change(shader: Shader, renderer: WebGLRenderer): void {
-    const { isRawShaderMaterial, glslVersion } = this.#material;
-    // Version 1 of the language cannot read single texels.
-    const isOld =
-      (renderer.capabilities as { isWebGL2?: boolean }).isWebGL2 === false ||
-      (isRawShaderMaterial === true && glslVersion !== "300 es");
-    if (isOld || !MAIN_NAME.test(shader.vertexShader)) {
+    const isPatched = shader.vertexShader.includes("hprHidden");
+    const text = isPatched ? shader.vertexShader : withTest(shader.vertexShader, MAIN);
+    if (text === undefined || (renderer.capabilities as { isWebGL2?: boolean }).isWebGL2 === false) {
       this.isPatched = false;
       return;
     }
-    if (!shader.vertexShader.includes("hprHidden")) {
-      shader.vertexShader = shader.vertexShader.replace(MAIN_NAME, "void hprMain()") + MAIN;
-    }
+    shader.vertexShader = text;
     Object.assign(shader.uniforms, this.uniforms);
     this.isPatched = true;
   }

@@ -2,6 +2,7 @@ import {
   DataTexture,
   FloatType,
   type Intersection,
+  type Material,
   Matrix4,
   type Points,
   type Raycaster,
@@ -11,7 +12,7 @@ import {
 } from "three";
 
 import type { VisibilityMap } from "../cloud/visibility-map.js";
-import { MapMaterial } from "./map-material.js";
+import { MapMaterial, type MapPatch, type PatchMaterial } from "./map-material.js";
 
 const WIDTH = 256;
 /** Rows for a map of the default number of corners. */
@@ -50,6 +51,28 @@ export class MapTexture {
   }
 }
 
+/** The textures of the last map for each camera. */
+export class MapTextures {
+  readonly #textures = new Map<unknown, MapTexture>();
+
+  /** The texture of this map. Objects that draw by the same map share it. */
+  of(camera: unknown, map: VisibilityMap): MapTexture {
+    const last = this.#textures.get(camera);
+    const texture = last?.map === map ? last : new MapTexture(map, last);
+    this.#textures.set(camera, texture);
+    return texture;
+  }
+
+  drop(camera: unknown): void {
+    this.#textures.get(camera)?.dispose();
+    this.#textures.delete(camera);
+  }
+
+  dispose(): void {
+    for (const camera of [...this.#textures.keys()]) this.drop(camera);
+  }
+}
+
 type Drawn = (renderer: WebGLRenderer, ...others: unknown[]) => void;
 
 /**
@@ -59,8 +82,9 @@ type Drawn = (renderer: WebGLRenderer, ...others: unknown[]) => void;
  */
 export class MappedPoints {
   readonly #points: Points;
+  readonly #patch: PatchMaterial;
   readonly #mode: 1 | -1;
-  #material: MapMaterial | undefined;
+  #material: MapPatch | undefined;
   #patched: unknown;
   #isRefused = false;
   #texture: MapTexture | undefined;
@@ -70,8 +94,9 @@ export class MappedPoints {
   #restore: (() => void) | undefined;
 
   /** `mode` -1: only hidden points are drawn. */
-  constructor(points: Points, mode: 1 | -1 = 1) {
+  constructor(points: Points, patch: PatchMaterial, mode: 1 | -1 = 1) {
     this.#points = points;
+    this.#patch = patch;
     this.#mode = mode;
   }
 
@@ -99,7 +124,7 @@ export class MappedPoints {
       this.#material?.leave();
       this.#patched = material;
       this.#isRefused = Array.isArray(material) || !("onBeforeCompile" in material);
-      this.#material = this.#isRefused ? undefined : MapMaterial.of(material as never);
+      this.#material = this.#isRefused ? undefined : this.#patch(material as Material);
     }
     this.#material?.follow();
     if (this.#points.onBeforeRender !== this.#hooks?.before || this.#points.onAfterRender !== this.#hooks.after) {
@@ -166,7 +191,7 @@ export class MappedPoints {
   }
 
   #begin(renderer: WebGLRenderer): void {
-    if ("isWebGPURenderer" in renderer) {
+    if ("isWebGPURenderer" in renderer && this.#patch === MapMaterial.of) {
       this.#isRefused = true;
       return;
     }
@@ -174,9 +199,10 @@ export class MappedPoints {
     if (material?.isPatched !== true || texture === undefined || seen === undefined || texture.isEmpty) {
       return;
     }
-    const { hprMode, hprDepths, hprMargins, hprEye, hprTurn } = material.uniforms;
+    const { hprMode, hprDepths, hprMargins, hprEye, hprTurn, hprRow } = material.uniforms;
     hprMode.value = this.#mode;
     hprDepths.value = texture.texture;
+    hprRow.value = 1 / texture.texture.image.height;
     hprMargins.value.fromArray(seen.margins);
     hprEye.value.fromArray(seen.viewpoint);
     hprTurn.value.fromArray(seen.turn);
@@ -194,5 +220,8 @@ export class MappedPoints {
 
 /** The renderer sends uniforms only when the program or the material changes. So it must choose the program again. */
 function again(renderer: WebGLRenderer): void {
+  if ("isWebGPURenderer" in renderer) {
+    return;
+  }
   (renderer.state as { useProgram(program: WebGLProgram | null): boolean }).useProgram(null);
 }

@@ -4,6 +4,7 @@ import { describe, HprError } from "../base/errors.js";
 import { FOLLOW_OPTIONS, type FollowOptions, type FollowSettings, followSettings } from "../query/follow-options.js";
 import { givenOptions, pick } from "../query/options.js";
 import { VIEW_OPTIONS, viewSettings, type VisibilityOptions } from "../query/view-options.js";
+import type { PatchMaterial } from "./map-material.js";
 import type { HiddenSettings } from "./shades.js";
 
 /** The options of a filter. The options of `VisibilityOptions` set how each view is computed. */
@@ -43,11 +44,13 @@ export interface FilterSettings extends FollowSettings, HiddenSettings {
   inWorker: boolean;
   dimMaterial: Material | undefined;
   nonFinite: "error" | "skip";
+  /** How materials are made to leave out hidden points. Undefined where points are drawn without them. */
+  patch: PatchMaterial | undefined;
 }
 
 const OWN_OPTIONS = ["worker", "mode", "dimMaterial", "threshold", "nonFinite"] as const;
 
-export function readFilterOptions(options: unknown): FilterSettings {
+export function readFilterOptions(options: unknown, patch?: PatchMaterial): FilterSettings {
   const given = givenOptions(options, VIEW_OPTIONS, FOLLOW_OPTIONS, OWN_OPTIONS);
   const view = pick(given, VIEW_OPTIONS);
   viewSettings(view, 3);
@@ -67,6 +70,7 @@ export function readFilterOptions(options: unknown): FilterSettings {
     threshold,
     dimMaterial: readMaterial(given["dimMaterial"], dim),
     nonFinite: oneOf(given, "nonFinite", ["error", "skip"]),
+    patch,
   };
 }
 

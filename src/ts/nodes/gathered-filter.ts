@@ -1,0 +1,237 @@
+import type { Camera, Points } from "three";
+
+import type { Visibility } from "../cloud/visibility.js";
+import type { Round } from "../follow/follower.js";
+import { type AnswerKind, type AskedStage, isStandIn } from "../follow/refinement.js";
+import type { Place } from "../query/place.js";
+import type { VisibilityOptions } from "../query/view-options.js";
+import { CameraFilter, type Drawing } from "../three/camera-filter.js";
+import type { FollowedCamera } from "../three/cameras.js";
+import type { Space } from "../three/eye.js";
+import type { FilterSettings } from "../three/options.js";
+import { Gathered, type GatheredNode, type Refused } from "./gathered.js";
+
+/** For how many milliseconds new nodes wait at most while a camera moves. */
+const LONGEST = 2000;
+
+/** The events of a filter of nodes. */
+export interface HiddenPointNodesFilterEvents {
+  /**
+   * A new answer is drawn. `count` is the number of visible points. `nodes` is the number of nodes
+   * in the cloud. `answer` says what the answer is: a map or a draft comes before the exact one. For a map, `count`
+   * and `radius` are those of the last answer. Either `viewpoint` or `direction` is null. `radius` is 0 if the
+   * inversion has none. The viewpoint, the direction and the radius are in the root's space.
+   */
+  change: {
+    count: number;
+    nodes: number;
+    milliseconds: number;
+    viewpoint: number[] | null;
+    direction: number[] | null;
+    radius: number;
+    answer: AnswerKind;
+    camera: Camera;
+  };
+  /**
+   * A node (`points`) or a view (`points` is null) is refused. For a node, this comes only once
+   * until the node changes. For views, it comes only once until there is an answer again. Without a
+   * listener, the error is an unhandled rejection.
+   */
+  error: { error: Error; points: Points | null };
+}
+
+/** Draws the nodes of a viewer. */
+export interface NodesDrawing<Node> extends Drawing {
+  /** Grows with every change of the nodes. */
+  readonly version: number;
+  /** Notes which nodes are present now, and how they have changed. */
+  takeUp(): void;
+  /** The nodes that are not refused. */
+  present(): Node[];
+  /** The next answers of this camera's nodes are about this number of points. */
+  begin?(camera: unknown, points: number): void;
+  /** Draws a node's answer. Returns how many of its points are visible. Undefined if the node is gone or has changed. */
+  answer(camera: unknown, node: Node, own: Uint32Array, scores: Float32Array | undefined): number | undefined;
+}
+
+/** Takes the nodes of a viewer as one cloud. New nodes are appended to it, and nodes that are gone are removed. */
+export abstract class GatheredFilter<Node extends GatheredNode> extends CameraFilter<HiddenPointNodesFilterEvents> {
+  /** @internal */
+  protected abstract override readonly drawing: NodesDrawing<Node>;
+  readonly #gathered: Gathered<Node>;
+  /**
+   * The version of the set of nodes that the last question was about. Undefined if the question
+   * must be asked again.
+   */
+  #askedVersion: number | undefined;
+  /** Whether the cloud was lost or dropped and must be made again. */
+  #isDropped = false;
+  /** Whether the cloud could not be made. It is made again when a camera moves or the nodes change. */
+  #isFailed = false;
+  /** When the nodes were gathered last, and whether nothing was asked since. */
+  #gatheredAt = -Infinity;
+  #isUnasked = false;
+  #visible = 0;
+  #radius = 0;
+  /** @internal */
+  protected readonly refuseNode: Refused = (error, points) => {
+    this.report({ error, points }, false);
+  };
+
+  /** @internal */
+  protected constructor(root: Space, settings: FilterSettings) {
+    super(root, settings);
+    this.#gathered = new Gathered(settings);
+  }
+
+  /** The number of visible points of all nodes, in the last answer. */
+  get visibleCount(): number {
+    return this.#visible;
+  }
+
+  override dispose(): void {
+    super.dispose();
+    this.#gathered.close();
+  }
+
+  /** Whether the nodes are not those of the last question. @internal */
+  protected override get isStale(): boolean {
+    return this.#isChanged && !this.frozen;
+  }
+
+  /** @internal */
+  protected override get isEmpty(): boolean {
+    return this.#gathered.isEmpty;
+  }
+
+  /** @internal */
+  protected override next(): Round | undefined {
+    if (this.#isDropped) {
+      this.#isDropped = false;
+      this.#askedVersion = undefined;
+    }
+    if (!this.wantsAnswer) {
+      return undefined;
+    }
+    const camera = this.isEmpty ? undefined : this.cameras.due(this.frozen);
+    return this.isStale && !this.#isPostponed(camera) ? this.#gathering() : camera && this.#viewing(camera);
+  }
+
+  /** @internal */
+  protected override noticeChanges(): boolean {
+    this.drawing.takeUp();
+    return this.#isChanged;
+  }
+
+  /** @internal */
+  protected override leave(camera: FollowedCamera): void {
+    this.left?.(camera);
+    if (this.#isFailed) {
+      this.#isFailed = false;
+      this.#askedVersion = undefined;
+    }
+  }
+
+  /** @internal */
+  protected override dropCloud(): void {
+    this.#gathered.drop();
+    this.#isDropped = true;
+  }
+
+  /**
+   * An exact answer or a draft begins. The function that it returns gets each node that is drawn, and its visible points.
+   *
+   * @internal
+   */
+  protected taking?(
+    camera: FollowedCamera,
+    place: Place,
+    answer: Visibility,
+    stage: AskedStage<VisibilityOptions>,
+    version: number | undefined,
+  ): ((node: Node, own: Uint32Array) => void) | undefined;
+
+  /** A camera has moved on, or is forgotten. @internal */
+  protected left?(camera: FollowedCamera): void;
+
+  get #isChanged(): boolean {
+    return this.#askedVersion !== this.drawing.version;
+  }
+
+  /**
+   * Whether the nodes are gathered later, because the picture of this camera comes first. While it is drawn by maps, these
+   * leave out hidden points of new nodes, too.
+   */
+  #isPostponed(camera: FollowedCamera | undefined): boolean {
+    const last = this.cameras.last;
+    const isMapped = last?.answer === "map" && last.isMoving && performance.now() - this.#gatheredAt < LONGEST;
+    const isTurn = this.#isUnasked && camera !== undefined && isStandIn(camera.refinement.due!.kind);
+    return !this.isEmpty && (isMapped || isTurn);
+  }
+
+  /** Updates the cloud. After that, all cameras ask again. */
+  #gathering(): Round<void> {
+    const gathered = this.#gathered;
+    return {
+      ask: () => {
+        this.#askedVersion = this.drawing.version;
+        return gathered.follow(this.drawing.present(), this.refuseNode);
+      },
+      use: () => {
+        this.#gatheredAt = performance.now();
+        this.#isUnasked = true;
+        this.cameras.again(gathered.points, gathered.spacing);
+        if (gathered.isEmpty) {
+          this.#visible = 0;
+        }
+        return () => {
+          this.tell();
+        };
+      },
+      isGivenUp: () => {
+        this.#isFailed = true;
+        return false;
+      },
+    };
+  }
+
+  /** Asks the cloud about a camera's view, and draws the answer. */
+  #viewing(camera: FollowedCamera): Round {
+    const gathered = this.#gathered;
+    const version = this.#askedVersion;
+    this.#isUnasked = false;
+    return this.view(
+      camera,
+      (place, stage) => gathered.see(place, stage),
+      (answer, stage, place) => {
+        let count = 0;
+        const taken = this.taking?.(camera, place, answer, stage, version);
+        this.drawing.begin?.(camera, gathered.points);
+        for (const { node, own, scores } of gathered.split(answer)) {
+          const drawn = this.drawing.answer(camera, node, own, scores);
+          count += drawn ?? 0;
+          if (drawn !== undefined && own.length > 0) taken?.(node, own);
+        }
+        this.#visible = count;
+        this.#radius = answer.radius;
+        gathered.recycle(answer);
+        return this.#told(place);
+      },
+      (map, place) => {
+        this.drawing.map(camera, map);
+        return this.#told(place);
+      },
+    );
+  }
+
+  #told({ from, isDirection }: Place) {
+    const place = [...from];
+    return {
+      count: this.#visible,
+      nodes: this.#gathered.nodes,
+      viewpoint: isDirection ? null : place,
+      direction: isDirection ? place : null,
+      radius: this.#radius,
+    };
+  }
+}

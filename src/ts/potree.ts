@@ -1,0 +1,7 @@
+export { HprError, type HprErrorCode } from "./base/errors.js";
+export { PotreeFilter, type PotreeFilterOptions } from "./potree/filter.js";
+export type { PotreeViewer } from "./potree/viewer.js";
+export type { HiddenPointNodesFilterEvents } from "./nodes/gathered-filter.js";
+export type { Inversion, RadiusRule, VisibilityOptions } from "./query/view-options.js";
+export type { AnswerKind } from "./follow/refinement.js";
+export type { FollowOptions } from "./query/follow-options.js";

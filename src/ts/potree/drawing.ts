@@ -1,0 +1,255 @@
+import type { Camera } from "three";
+
+import type { VisibilityMap } from "../cloud/visibility-map.js";
+import type { NodesDrawing } from "../nodes/gathered-filter.js";
+import type { FilterSettings } from "../three/options.js";
+import { indicesOver } from "../three/shades.js";
+import { MODE, withAnswer } from "./shader.js";
+import { Textures } from "./textures.js";
+import { Tile } from "./tiles.js";
+import type { OctreeNode, PotreeRenderer, PotreeShader, PotreeViewer } from "./viewer.js";
+
+/** The points of an answer, one byte for each, and where those of a node begin. */
+interface Answer {
+  bytes: Uint8Array;
+  size: readonly [number, number];
+  spans: Map<Tile, { first: number; revision: number }>;
+  length: number;
+  isSent: boolean;
+}
+
+/** What is drawn for a camera. New nodes have no answer yet: the map of the same place shows them. */
+interface Shown {
+  map: VisibilityMap | undefined;
+  answer: Answer | undefined;
+  isAnswered: boolean;
+}
+
+/**
+ * Draws the nodes of Potree's clouds. Its renderer sends all points of a node to the card, so the vertex shader leaves
+ * out hidden points, by the map or by the answer. As picking goes through the same renderer, it does not meet them either.
+ */
+export class PotreeDrawing implements NodesDrawing<Tile> {
+  enabled = true;
+  version = 0;
+  readonly #viewer: PotreeViewer;
+  readonly #settings: FilterSettings;
+  readonly #renderer: PotreeRenderer;
+  readonly #textures: Textures;
+  readonly #tiles = new Map<OctreeNode, Tile>();
+  readonly #shown = new Map<unknown, Shown>();
+  /** What each node is seen by: the same for all frames with the same map. */
+  readonly #seen = new WeakMap<
+    Tile,
+    { map: VisibilityMap; matrix: readonly number[]; numbers: ReturnType<VisibilityMap["seenIn"]> }
+  >();
+  readonly #restore: () => void;
+  #camera: unknown;
+  #frame = 0;
+
+  constructor(viewer: PotreeViewer, settings: FilterSettings) {
+    this.#viewer = viewer;
+    this.#settings = settings;
+    this.#renderer = viewer.pRenderer;
+    this.#textures = new Textures(this.#renderer.gl);
+    this.#restore = this.#hook();
+  }
+
+  get isAble(): boolean {
+    return this.#textures.readsFloats;
+  }
+
+  /** The number of points of the nodes that are drawn. */
+  get total(): number {
+    return this.present().reduce((sum, { count }) => sum + count, 0);
+  }
+
+  follow(): void {
+    // Potree's renderer has all changes of the points itself.
+  }
+
+  takeUp(): void {
+    this.#frame += 1;
+    for (const octree of this.#viewer.scene.pointclouds) {
+      if (octree.visible) this.#takeUpAll(octree.visibleNodes);
+    }
+    for (const [node, tile] of this.#tiles) {
+      if (tile.seen !== this.#frame) {
+        this.#tiles.delete(node);
+        this.version += 1;
+      }
+    }
+  }
+
+  present(): Tile[] {
+    return [...this.#tiles.values()];
+  }
+
+  select(camera: unknown): void {
+    this.#camera = camera;
+  }
+
+  setStale(camera: unknown): void {
+    this.#shown.delete(camera);
+  }
+
+  map(camera: unknown, map: VisibilityMap): void {
+    const shown = this.#of(camera);
+    shown.map = map;
+    shown.isAnswered = false;
+    this.#textures.uploadMap(shown, map);
+  }
+
+  begin(camera: unknown, points: number): void {
+    const shown = this.#of(camera);
+    const { answer } = shown;
+    const isRoomy = answer !== undefined && answer.bytes.length >= points;
+    const kept = isRoomy ? answer : this.#textures.bytesFor(points);
+    shown.answer = { ...kept, spans: new Map(), length: 0, isSent: false };
+    shown.isAnswered = true;
+  }
+
+  answer(camera: unknown, tile: Tile, own: Uint32Array, scores: Float32Array | undefined): number {
+    const { threshold } = this.#settings;
+    const visible = scores === undefined || threshold === undefined ? own : indicesOver(scores, threshold);
+    const answer = this.#of(camera).answer!;
+    const { length: first, bytes } = answer;
+    answer.spans.set(tile, { first, revision: tile.revision });
+    answer.length += tile.count;
+    bytes.fill(0, first, answer.length);
+    for (const index of visible) bytes[first + index] = 255;
+    return visible.length;
+  }
+
+  drop(camera: unknown): void {
+    const shown = this.#shown.get(camera);
+    if (shown !== undefined) {
+      this.#textures.drop(shown);
+      if (shown.answer !== undefined) this.#textures.drop(shown.answer.bytes);
+      this.#shown.delete(camera);
+    }
+  }
+
+  dispose(): void {
+    this.#restore();
+    this.#shown.clear();
+    this.#textures.dispose();
+    this.#tiles.clear();
+  }
+
+  #of(camera: unknown): Shown {
+    const shown = this.#shown.get(camera) ?? { map: undefined, answer: undefined, isAnswered: false };
+    this.#shown.set(camera, shown);
+    return shown;
+  }
+
+  #takeUpAll(nodes: readonly OctreeNode[]): void {
+    for (const node of nodes) {
+      const { sceneNode, geometryNode } = node;
+      if (sceneNode === null || geometryNode.geometry === undefined) {
+        continue;
+      }
+      let tile = this.#tiles.get(node);
+      if (tile === undefined) {
+        tile = new Tile(node, sceneNode);
+        this.#tiles.set(node, tile);
+        this.version += 1;
+      } else if (tile.noticeChange()) {
+        this.version += 1;
+      }
+      tile.seen = this.#frame;
+    }
+  }
+
+  /** Whether a picture is taken by the camera that the answers are for. Shadows and maps have other cameras. */
+  #draws(camera: Camera): boolean {
+    const isShown = this.enabled && this.#shown.has(this.#camera);
+    return isShown && (this.#camera as { camera: Camera }).camera === camera;
+  }
+
+  #hook(): () => void {
+    const renderer = this.#renderer;
+    // eslint-disable-next-line @typescript-eslint/unbound-method -- called with the renderer
+    const { renderOctree, renderNodes } = renderer;
+    const octree: PotreeRenderer["renderOctree"] = (cloud, nodes, camera, target, params = {}) => {
+      const material = params.material ?? cloud.material;
+      const { vertexShader } = material;
+      const changed = this.#draws(camera) ? withAnswer(vertexShader, this.#settings.dim) : undefined;
+      material.vertexShader = changed ?? vertexShader;
+      try {
+        renderOctree.call(renderer, cloud, nodes, camera, target, params);
+      } finally {
+        material.vertexShader = vertexShader;
+      }
+    };
+    const own: PotreeRenderer["renderNodes"] = (cloud, nodes, data, camera, target, shader, params) => {
+      const isPatched = this.#draws(camera) && shader.uniformLocations["hprMode"] !== undefined;
+      const through = isPatched ? this.#through(shader, nodes) : shader;
+      renderNodes.call(renderer, cloud, nodes, data, camera, target, through, params);
+    };
+    Object.assign(renderer, { renderOctree: octree, renderNodes: own });
+    return () => {
+      // Both are methods of the class. Somebody else may have changed them after this filter.
+      if (renderer.renderOctree === octree) Reflect.deleteProperty(renderer, "renderOctree");
+      if (renderer.renderNodes === own) Reflect.deleteProperty(renderer, "renderNodes");
+    };
+  }
+
+  /** The shader, which also gets the numbers of each node when Potree tells it the node's own number. */
+  #through(shader: PotreeShader, nodes: readonly OctreeNode[]): PotreeShader {
+    const { gl } = this.#renderer;
+    const at = shader.uniformLocations;
+    const shown = this.#shown.get(this.#camera)!;
+    const [map, answer] = this.#textures.units;
+    this.#textures.bind(shown, 0);
+    gl.uniform1i(at["hprDepths"]!, map);
+    gl.uniform1i(at["hprAnswer"]!, answer);
+    gl.uniform3f(at["hprViewpoint"]!, 0, 0, 0);
+    gl.uniform1f(at["hprRow"] ?? null, 256 / Math.max(256, shown.map?.data.length ?? 0));
+    if (shown.answer !== undefined) {
+      const { bytes, size } = shown.answer;
+      if (!shown.answer.isSent) {
+        this.#textures.uploadBytes(bytes, bytes, size);
+        shown.answer.isSent = true;
+      }
+      this.#textures.bind(bytes, 1);
+      gl.uniform2f(at["hprSize"]!, ...size);
+    }
+    gl.activeTexture(gl.TEXTURE0);
+    const through = Object.create(shader) as PotreeShader;
+    through.setUniform1f = (name, value) => {
+      shader.setUniform1f(name, value);
+      if (name === "uPCIndex") this.#tell(shader, shown, nodes[value]!);
+    };
+    return through;
+  }
+
+  #tell({ uniformLocations: at }: PotreeShader, { map, answer, isAnswered }: Shown, node: OctreeNode): void {
+    const { gl } = this.#renderer;
+    const tile = this.#tiles.get(node);
+    const span = isAnswered && tile !== undefined ? answer!.spans.get(tile) : undefined;
+    if (span?.revision === tile?.revision && span !== undefined) {
+      gl.uniform1f(at["hprMode"]!, MODE.answer);
+      gl.uniform1f(at["hprFirst"]!, span.first);
+      return;
+    }
+    const isMapped = tile !== undefined && map !== undefined && map.data.length > 0;
+    gl.uniform1f(at["hprMode"]!, isMapped ? MODE.map : MODE.all);
+    if (isMapped) {
+      const { viewpoint, turn, margins } = this.#numbersOf(tile, map);
+      gl.uniform3fv(at["hprEye"]!, viewpoint);
+      gl.uniformMatrix3fv(at["hprTurn"]!, false, turn);
+      gl.uniform4fv(at["hprMargins"]!, margins);
+    }
+  }
+
+  #numbersOf(tile: Tile, map: VisibilityMap): ReturnType<VisibilityMap["seenIn"]> {
+    const { matrix } = tile;
+    let seen = this.#seen.get(tile);
+    if (seen?.map !== map || seen.matrix !== matrix) {
+      seen = { map, matrix, numbers: map.seenIn(matrix) };
+      this.#seen.set(tile, seen);
+    }
+    return seen.numbers;
+  }
+}

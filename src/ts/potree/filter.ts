@@ -1,0 +1,55 @@
+import { HprError } from "../base/errors.js";
+import { GatheredFilter } from "../nodes/gathered-filter.js";
+import type { Space } from "../three/eye.js";
+import { type HiddenPointFilterOptions, readFilterOptions } from "../three/options.js";
+import { PotreeDrawing } from "./drawing.js";
+import type { Tile } from "./tiles.js";
+import { type PotreeViewer, requireViewer } from "./viewer.js";
+
+/** The options of a `HiddenPointFilter`. Potree has no second material for hidden points. */
+export type PotreeFilterOptions = Omit<HiddenPointFilterOptions, "dimMaterial">;
+
+const WORLD: Space = {
+  updateWorldMatrix: () => undefined,
+  matrixWorld: { elements: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1] },
+};
+
+/**
+ * Takes all visible clouds of a Potree viewer (1.7 and 1.8) as one cloud, and draws only the points that its camera
+ * sees. What Potree picks and measures are these points, too. It follows the viewer's frames by itself.
+ *
+ * ```js
+ * const filter = new PotreeFilter(viewer);
+ * ```
+ *
+ * Viewpoints and radii are in the world's space. Points with a coordinate that is NaN or infinite are hidden, unless
+ * `nonFinite` is `"error"`. Height profiles and boxes that select read the points themselves, hidden ones included.
+ */
+export class PotreeFilter extends GatheredFilter<Tile> {
+  /** @internal */
+  protected override readonly drawing: PotreeDrawing;
+  readonly #leaveViewer: () => void;
+
+  /** @throws HprError `option`. */
+  constructor(viewer: PotreeViewer, options?: PotreeFilterOptions) {
+    requireViewer(viewer);
+    if (options !== undefined && "dimMaterial" in options) {
+      throw new HprError("option", "unknown option dimMaterial: Potree's own material is dimmed");
+    }
+    const settings = readFilterOptions(typeof options === "object" ? { nonFinite: "skip", ...options } : options);
+    super(WORLD, settings);
+    this.drawing = new PotreeDrawing(viewer, settings);
+    const follow = () => {
+      this.update(viewer.scene.getActiveCamera());
+    };
+    viewer.addEventListener("update", follow);
+    this.#leaveViewer = () => {
+      viewer.removeEventListener("update", follow);
+    };
+  }
+
+  override dispose(): void {
+    this.#leaveViewer();
+    super.dispose();
+  }
+}
