@@ -6,7 +6,7 @@ import { inRoot } from "../lib/paths.js";
 import { mustRun, say } from "../lib/run.js";
 import { unlessUnchanged } from "../lib/stamp.js";
 import { WASM_TARGET } from "../setup/rust.js";
-import { easeGlue } from "./glue.js";
+import { easeGlue, numberImports } from "./glue.js";
 import { optimize } from "./optimize.js";
 
 const FAILED = "The WebAssembly module could not be built";
@@ -70,7 +70,9 @@ async function buildModule(folder: string, options: string[]): Promise<void> {
     const built = file === "hpr_bg.d.ts" ? "hpr.d.ts" : file;
     copyFileSync(join(out, built), inRoot("src/ts", folder, file));
   }
-  easeGlue(inRoot("src/ts", folder, "hpr_bg.js"));
+  const glue = inRoot("src/ts", folder, "hpr_bg.js");
+  easeGlue(glue);
+  numberImports([inRoot("src/ts", folder, "hpr_bg.wasm"), glue], glue);
 }
 
 /**

@@ -2,14 +2,13 @@
 
 use alloc::boxed::Box;
 
-use js_sys::{Float32Array, Float64Array, Uint32Array};
+use js_sys::{Float64Array, Uint32Array};
 use wasm_bindgen::prelude::*;
 
-use crate::cloud::points::Points;
+use crate::Horizon;
 use crate::wasm::clouds::{Cloud, created, with_horizon};
 use crate::wasm::options::ViewOptions;
-use crate::wasm::transfer::{copy_out, copy_out_doubles, doubles, singles};
-use crate::{Error, Horizon};
+use crate::wasm::transfer::{Coordinates, copy_out, copy_out_doubles, points};
 
 /// A horizon without points, seen from (x, y, z).
 #[wasm_bindgen(js_name = createHorizon, unchecked_return_type = "CloudInfo")]
@@ -18,24 +17,17 @@ pub fn create_horizon(x: f64, y: f64, z: f64, options: &ViewOptions) -> Result<J
     created(horizon.map(|horizon| Cloud::Horizon(Box::new(horizon))))
 }
 
-/// The indices of single-precision points that the horizon does not hide.
-#[wasm_bindgen(js_name = screenF32)]
-pub fn screen_f32(
+/// The indices of points that the horizon does not hide.
+#[wasm_bindgen]
+pub fn screen(
     handle: u32,
-    positions: &Float32Array,
+    positions: &Coordinates,
     options: &ViewOptions,
 ) -> Result<Uint32Array, JsValue> {
-    screen(handle, singles(positions), options)
-}
-
-/// The indices of double-precision points that the horizon does not hide.
-#[wasm_bindgen(js_name = screenF64)]
-pub fn screen_f64(
-    handle: u32,
-    positions: &Float64Array,
-    options: &ViewOptions,
-) -> Result<Uint32Array, JsValue> {
-    screen(handle, doubles(positions), options)
+    Ok(with_horizon(handle, |horizon| {
+        let kept = horizon.not_hidden(points(positions)?.as_given())?;
+        copy_out(&kept, options)
+    })?)
 }
 
 /// Whether everything in a box is certainly hidden. `corners` holds its least and its largest x, y, z.
@@ -53,16 +45,5 @@ pub fn hides_box(handle: u32, corners: &Float64Array) -> Result<bool, JsValue> {
 pub fn horizon_points(handle: u32, options: &ViewOptions) -> Result<Float64Array, JsValue> {
     Ok(with_horizon(handle, |horizon| {
         copy_out_doubles(horizon.visible()?.as_flattened(), options)
-    })?)
-}
-
-fn screen(
-    handle: u32,
-    positions: Result<Points, Error>,
-    options: &ViewOptions,
-) -> Result<Uint32Array, JsValue> {
-    Ok(with_horizon(handle, |horizon| {
-        let kept = horizon.not_hidden(positions?.as_given())?;
-        copy_out(&kept, options)
     })?)
 }

@@ -4,22 +4,32 @@
 use alloc::vec::Vec;
 
 use js_sys::{Float32Array, Float64Array, Uint8Array, Uint32Array};
+use wasm_bindgen::JsCast;
+use wasm_bindgen::prelude::*;
 
 use crate::Error;
 use crate::base::allocation::filled;
 use crate::cloud::points::Points;
 use crate::wasm::options::ViewOptions;
 
-#[inline(never)]
-pub(super) fn singles(positions: &Float32Array) -> Result<Points, Error> {
-    let mut own = zeros::<[f32; 3]>(positions.length() / 3)?;
-    positions.copy_to(own.as_flattened_mut());
-    Ok(Points::Single(own))
+#[wasm_bindgen]
+extern "C" {
+    /// Three numbers for each point, in the precision in which they were given.
+    #[wasm_bindgen(typescript_type = "Float32Array | Float64Array")]
+    pub type Coordinates;
+    #[wasm_bindgen(method, getter, js_name = BYTES_PER_ELEMENT)]
+    fn bytes_of_each(this: &Coordinates) -> u32;
 }
 
 #[inline(never)]
-pub(super) fn doubles(positions: &Float64Array) -> Result<Points, Error> {
-    Ok(Points::Double(triples(positions)?))
+pub(super) fn points(positions: &Coordinates) -> Result<Points, Error> {
+    if positions.bytes_of_each() == 8 {
+        return Ok(Points::Double(triples(positions.unchecked_ref())?));
+    }
+    let positions: &Float32Array = positions.unchecked_ref();
+    let mut own = zeros::<[f32; 3]>(positions.length() / 3)?;
+    positions.copy_to(own.as_flattened_mut());
+    Ok(Points::Single(own))
 }
 
 /// Points of three doubles each.

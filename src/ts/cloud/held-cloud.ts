@@ -9,8 +9,8 @@ import { freeCloud, unreachable } from "./free.js";
 export type OperatorBindings = Omit<typeof lite, "__wbg_set_wasm">;
 
 export type Coordinates = Float32Array | Float64Array;
-export type CloudChoices = Parameters<OperatorBindings["createCloudF32"]>[1];
-export type CloudInfo = ReturnType<OperatorBindings["createCloudF32"]>;
+export type CloudChoices = Parameters<OperatorBindings["createCloud"]>[1];
+export type CloudInfo = ReturnType<OperatorBindings["createCloud"]>;
 
 /** A cloud's place: its number in an instance. */
 interface Held<Bindings> {
@@ -90,15 +90,11 @@ export class HeldCloud<Bindings extends OperatorBindings> {
   }
 
   protected create(bindings: Bindings, numbers: Coordinates, choices: CloudChoices): CloudInfo {
-    return numbers.BYTES_PER_ELEMENT === 4
-      ? bindings.createCloudF32(numbers as Float32Array, choices)
-      : bindings.createCloudF64(numbers as Float64Array, choices);
+    return bindings.createCloud(numbers, choices);
   }
 
   protected add(bindings: Bindings, handle: number, numbers: Coordinates): CloudSize {
-    return numbers.BYTES_PER_ELEMENT === 4
-      ? bindings.appendF32(handle, numbers as Float32Array)
-      : bindings.appendF64(handle, numbers as Float64Array);
+    return bindings.append(handle, numbers);
   }
 }
 

@@ -57,11 +57,7 @@ export class Horizon {
    *   than the radius), `too-large`, `disposed`, `internal`.
    */
   add(positions: Positions): void {
-    this.#call(positions, (bindings, handle, numbers) =>
-      numbers.BYTES_PER_ELEMENT === 4
-        ? bindings.appendF32(handle, numbers as Float32Array)
-        : bindings.appendF64(handle, numbers as Float64Array),
-    );
+    this.#call(positions, (bindings, handle, numbers) => bindings.append(handle, numbers));
   }
 
   /**
@@ -72,12 +68,8 @@ export class Horizon {
    * @throws HprError as {@link Horizon.add}.
    */
   screen(positions: Positions): Uint32Array {
-    return this.#call(positions, (bindings, handle, numbers) => {
-      const options = coreOptions(this.#settings);
-      return numbers.BYTES_PER_ELEMENT === 4
-        ? bindings.screenF32(handle, numbers as Float32Array, options)
-        : bindings.screenF64(handle, numbers as Float64Array, options);
-    });
+    const options = coreOptions(this.#settings);
+    return this.#call(positions, (bindings, handle, numbers) => bindings.screen(handle, numbers, options));
   }
 
   /**

@@ -54,11 +54,7 @@ export function mergeVisible(parts: readonly VisiblePart[], viewpoint: Viewpoint
   const [x, y, z] = readViewpoint(viewpoint, 3) as [number, number, number];
   const settings = coreOptions(mergeSettings(options, "all parts were seen with"));
   const { positions, ids } = joined(readParts(parts));
-  return instance.call((bindings) =>
-    positions.BYTES_PER_ELEMENT === 4
-      ? bindings.mergeVisibleF32(positions as Float32Array, ids, x, y, z, settings)
-      : bindings.mergeVisibleF64(positions as Float64Array, ids, x, y, z, settings),
-  );
+  return instance.call((bindings) => bindings.mergeVisible(positions, ids, x, y, z, settings));
 }
 
 interface Points {
