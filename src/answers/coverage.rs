@@ -2,6 +2,7 @@
 
 use alloc::vec::Vec;
 
+use crate::answers::threads::Threads;
 use crate::base::allocation::{filled, with_capacity};
 use crate::base::error::{Error, in_range};
 use crate::cloud::point_cloud::PointCloud;
@@ -53,23 +54,7 @@ impl PointCloud {
         viewpoints: &[S],
         options: &Options,
     ) -> Result<Vec<u32>, Error> {
-        self.coverage_by(1, viewpoints, options)
-    }
-
-    /// [`PointCloud::coverage`] with so many threads.
-    pub(crate) fn coverage_by<S: Copy + Into<Seat> + Sync>(
-        &self,
-        threads: usize,
-        viewpoints: &[S],
-        options: &Options,
-    ) -> Result<Vec<u32>, Error> {
-        let mut counts: Vec<u32> = filled(self.len(), 0)?;
-        options.check(QuestionKind::Coverage)?;
-        self.each_view(threads, viewpoints, options, &mut |_, seen| {
-            let indices = seen.indices().iter();
-            indices.for_each(|&index| counts[index as usize] += 1);
-        })?;
-        Ok(counts)
+        self.alone().coverage(viewpoints, options)
     }
 
     /// Chooses viewpoints, or cameras, among candidates, greedily: always the one that adds most weight, ties to
@@ -100,13 +85,52 @@ impl PointCloud {
         options: &Options,
         placing: &Placing,
     ) -> Result<Placement, Error> {
-        self.place_viewpoints_by(1, candidates, options, placing)
+        self.alone().place_viewpoints(candidates, options, placing)
     }
 
-    /// [`PointCloud::place_viewpoints`] with so many threads.
-    pub(crate) fn place_viewpoints_by<S: Copy + Into<Seat> + Sync>(
+    /// The indices that these candidates see, each with its number.
+    fn views_of<S: Copy + Into<Seat> + Sync>(
         &self,
         threads: usize,
+        asked: &[usize],
+        candidates: &[S],
+        options: &Options,
+    ) -> Result<Vec<(usize, Vec<u32>)>, Error> {
+        let mut seats: Vec<S> = with_capacity(asked.len())?;
+        seats.extend(asked.iter().map(|&number| candidates[number]));
+        let mut views = with_capacity(asked.len())?;
+        self.each_view(threads, &seats, options, &mut |at, seen| {
+            views.push((asked[at], seen.into_indices()));
+        })?;
+        Ok(views)
+    }
+}
+
+impl Threads<'_> {
+    /// As [`PointCloud::coverage`].
+    ///
+    /// # Errors
+    /// As [`PointCloud::coverage`].
+    pub fn coverage<S: Copy + Into<Seat> + Sync>(
+        &self,
+        viewpoints: &[S],
+        options: &Options,
+    ) -> Result<Vec<u32>, Error> {
+        let mut counts: Vec<u32> = filled(self.len(), 0)?;
+        options.check(QuestionKind::Coverage)?;
+        self.each_view(self.count, viewpoints, options, &mut |_, seen| {
+            let indices = seen.indices().iter();
+            indices.for_each(|&index| counts[index as usize] += 1);
+        })?;
+        Ok(counts)
+    }
+
+    /// As [`PointCloud::place_viewpoints`].
+    ///
+    /// # Errors
+    /// As [`PointCloud::place_viewpoints`].
+    pub fn place_viewpoints<S: Copy + Into<Seat> + Sync>(
+        &self,
         candidates: &[S],
         options: &Options,
         placing: &Placing,
@@ -135,7 +159,7 @@ impl PointCloud {
         let mut gains: Vec<f64> = filled(candidates.len(), 0.0)?;
         let mut seen_by_any: Vec<bool> = filled(self.len(), false)?;
         options.check(QuestionKind::PlaceViewpoints)?;
-        self.each_view(threads, candidates, options, &mut |number, seen| {
+        self.each_view(self.count, candidates, options, &mut |number, seen| {
             let indices = seen.indices();
             gains[number] = indices.iter().fold(0.0, |sum, &index| sum + weight(index));
             for &index in indices {
@@ -158,8 +182,8 @@ impl PointCloud {
                 break;
             };
             if views.iter().all(|(number, _)| *number != best) {
-                let asked = highest_of(&gains, threads)?;
-                views = self.views_of(threads, &asked, candidates, options)?;
+                let asked = highest_of(&gains, self.count)?;
+                views = self.views_of(self.count, &asked, candidates, options)?;
             }
             let Some((_, view)) = views.iter().find(|(number, _)| *number == best) else {
                 break;
@@ -183,23 +207,6 @@ impl PointCloud {
         placement.seen = marked(&seen, true)?;
         placement.unseen = marked(&seen_by_any, false)?;
         Ok(placement)
-    }
-
-    /// The indices that these candidates see, each with its number.
-    fn views_of<S: Copy + Into<Seat> + Sync>(
-        &self,
-        threads: usize,
-        asked: &[usize],
-        candidates: &[S],
-        options: &Options,
-    ) -> Result<Vec<(usize, Vec<u32>)>, Error> {
-        let mut seats: Vec<S> = with_capacity(asked.len())?;
-        seats.extend(asked.iter().map(|&number| candidates[number]));
-        let mut views = with_capacity(asked.len())?;
-        self.each_view(threads, &seats, options, &mut |at, seen| {
-            views.push((asked[at], seen.into_indices()));
-        })?;
-        Ok(views)
     }
 }
 

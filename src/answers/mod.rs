@@ -19,7 +19,6 @@ pub(crate) mod sample;
 pub(crate) mod sector;
 pub(crate) mod sees;
 pub(crate) mod share;
-#[cfg(feature = "std")]
 pub(crate) mod threads;
 pub(crate) mod union;
 pub(crate) mod visibility;

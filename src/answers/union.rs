@@ -4,6 +4,7 @@
 use alloc::vec::Vec;
 use glam::DVec3;
 
+use crate::answers::threads::Threads;
 use crate::answers::visibility::Visibility;
 use crate::base::allocation::{filled, with_capacity};
 use crate::base::error::{Error, in_range};
@@ -33,7 +34,7 @@ impl PointCloud {
         viewpoints: &[S],
         options: &Options,
     ) -> Result<Visibility, Error> {
-        self.visible_from_several(1, 1, viewpoints, options)
+        self.alone().visible_from_any(viewpoints, options)
     }
 
     /// Which points are visible from at least `k` of `viewpoints`? Otherwise as
@@ -62,24 +63,48 @@ impl PointCloud {
         viewpoints: &[S],
         options: &Options,
     ) -> Result<Visibility, Error> {
-        self.visible_from_at_least_by(1, k, viewpoints, options)
+        self.alone().visible_from_at_least(k, viewpoints, options)
     }
 
-    /// [`PointCloud::visible_from_at_least`] with so many threads.
-    pub(crate) fn visible_from_at_least_by<S: Copy + Into<Seat> + Sync>(
+    /// The answer from no viewpoint.
+    fn nothing(&self, options: &Options) -> Result<Visibility, Error> {
+        let inversion = match options.inversion {
+            Inversion::Looks(_) => options.inversion,
+            _ => resolved_inversion(options, self.statistics.spacing)?,
+        };
+        self.answer(&[], options, ChosenRadius::unit(0.0), inversion)
+    }
+}
+
+impl Threads<'_> {
+    /// As [`PointCloud::visible_from_any`].
+    ///
+    /// # Errors
+    /// As [`PointCloud::visible_from_any`].
+    pub fn visible_from_any<S: Copy + Into<Seat> + Sync>(
         &self,
-        threads: usize,
+        viewpoints: &[S],
+        options: &Options,
+    ) -> Result<Visibility, Error> {
+        self.visible_from_several(1, viewpoints, options)
+    }
+
+    /// As [`PointCloud::visible_from_at_least`].
+    ///
+    /// # Errors
+    /// As [`PointCloud::visible_from_at_least`].
+    pub fn visible_from_at_least<S: Copy + Into<Seat> + Sync>(
+        &self,
         k: usize,
         viewpoints: &[S],
         options: &Options,
     ) -> Result<Visibility, Error> {
         in_range("k", k as f64, 1.0, viewpoints.len() as f64)?;
-        self.visible_from_several(threads, k, viewpoints, options)
+        self.visible_from_several(k, viewpoints, options)
     }
 
-    pub(crate) fn visible_from_several<S: Copy + Into<Seat> + Sync>(
+    fn visible_from_several<S: Copy + Into<Seat> + Sync>(
         &self,
-        threads: usize,
         k: usize,
         viewpoints: &[S],
         options: &Options,
@@ -88,7 +113,7 @@ impl PointCloud {
         let mut views: Vec<u32> = filled(self.len(), 0)?;
         let mut joined: Option<(usize, Visibility)> = None;
         let size = |view: &Visibility| (view.radius(), view.scale());
-        self.each_view(threads, viewpoints, options, &mut |number, seen| {
+        self.each_view(self.count, viewpoints, options, &mut |number, seen| {
             for &index in seen.indices() {
                 views[index as usize] += 1;
             }
@@ -117,15 +142,6 @@ impl PointCloud {
         let mut indices: Vec<u32> = with_capacity(self.len())?;
         indices.extend((0..self.len() as u32).filter(is_seen));
         Ok(joined.with_indices(indices))
-    }
-
-    /// The answer from no viewpoint.
-    fn nothing(&self, options: &Options) -> Result<Visibility, Error> {
-        let inversion = match options.inversion {
-            Inversion::Looks(_) => options.inversion,
-            _ => resolved_inversion(options, self.statistics.spacing)?,
-        };
-        self.answer(&[], options, ChosenRadius::unit(0.0), inversion)
     }
 }
 

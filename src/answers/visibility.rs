@@ -4,6 +4,7 @@ use alloc::vec::Vec;
 
 use crate::answers::looks::{Projection, Question, even_scales, scores_of_indices};
 use crate::answers::memory::ViewMemory;
+use crate::answers::threads::Threads;
 use crate::base::allocation::{OutOfMemory, filled, with_capacity};
 use crate::base::bits::{bits_of, places};
 use crate::base::build::FULL;
@@ -205,18 +206,6 @@ impl PointCloud {
         self.visible_from_with(&mut ViewMemory::default(), viewpoint, options)
     }
 
-    /// [`PointCloud::visible_from`] with so many threads.
-    pub(crate) fn visible_from_by(
-        &self,
-        threads: usize,
-        viewpoint: [f64; 3],
-        options: &Options,
-    ) -> Result<Visibility, Error> {
-        options.check(QuestionKind::View)?;
-        let part = self.part(Some(viewpoint), options)?;
-        part.seen_by(threads, &mut ViewMemory::default(), viewpoint, options)
-    }
-
     /// [`PointCloud::visible_from`] with the memory of earlier views.
     pub(crate) fn visible_from_with(
         &self,
@@ -387,6 +376,22 @@ impl PointCloud {
             ..Options::default()
         };
         Ok(self.view(viewpoint, &options)?.chosen)
+    }
+}
+
+impl Threads<'_> {
+    /// As [`PointCloud::visible_from`].
+    ///
+    /// # Errors
+    /// As [`PointCloud::visible_from`].
+    pub fn visible_from(
+        &self,
+        viewpoint: [f64; 3],
+        options: &Options,
+    ) -> Result<Visibility, Error> {
+        options.check(QuestionKind::View)?;
+        let part = self.part(Some(viewpoint), options)?;
+        part.seen_by(self.count, &mut ViewMemory::default(), viewpoint, options)
     }
 }
 
