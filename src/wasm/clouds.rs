@@ -179,6 +179,15 @@ fn prepare(
     })
 }
 
+/// Whether the cloud has more than three dimensions.
+#[cfg(feature = "wasm")]
+pub(super) fn is_hyper(handle: u32) -> bool {
+    CLOUDS.with_borrow(|clouds| {
+        let cloud = clouds.get(handle as usize);
+        matches!(cloud, Some(Some(Cloud::Hyper(_))))
+    })
+}
+
 #[cfg(feature = "wasm")]
 pub(super) fn with_hyper<T>(
     handle: u32,

@@ -5,8 +5,9 @@ use wasm_bindgen::prelude::*;
 
 use crate::cloud::points::Given;
 use crate::wasm::answer::answered;
-use crate::wasm::clouds::{with_cloud, with_memory, with_view};
+use crate::wasm::clouds::{is_hyper, with_cloud, with_hyper, with_memory, with_view};
 use crate::wasm::failure::Failure;
+use crate::wasm::higher::seen_from_several;
 use crate::wasm::options::ViewOptions;
 use crate::wasm::transfer::{copy_in_integers, triples};
 use crate::wasm::view::seen;
@@ -108,7 +109,7 @@ pub fn sees(
     Ok(())
 }
 
-/// Which points are visible from at least `k` of the viewpoints? `viewpoints` holds x, y, z of
+/// Which points are visible from at least `k` of the viewpoints? `viewpoints` holds the numbers of
 /// one viewpoint after another.
 #[wasm_bindgen(js_name = visibleFromSeveral, unchecked_return_type = "Answer")]
 pub fn visible_from_several(
@@ -118,6 +119,12 @@ pub fn visible_from_several(
     options: &ViewOptions,
 ) -> Result<JsValue, JsValue> {
     let view = options.read();
+    if is_hyper(handle) {
+        let seen = with_hyper(handle, |cloud| {
+            seen_from_several(cloud, viewpoints, k as usize, &view)
+        });
+        return answered(seen, options);
+    }
     let seen = with_view(handle, None, options, &view, |cloud| {
         let viewpoints = triples(viewpoints)?;
         // "Any of no viewpoints" is an empty answer; "one of no viewpoints" is refused.

@@ -1,8 +1,7 @@
 import type { Bindings } from "../instance/instance.js";
 import type { Answers } from "../query/answers.js";
-import type { CloudSize } from "../query/options.js";
 import type { Query, QueryKind } from "../query/queries.js";
-import { type CloudChoices, type CloudInfo, type Coordinates, HeldCloud } from "./held-cloud.js";
+import { HeldCloud } from "./held-cloud.js";
 import { coreOptions, perform } from "./perform.js";
 import { Spares } from "./spares.js";
 
@@ -48,17 +47,5 @@ export class CoreCloud extends HeldCloud<Bindings> {
   override dispose(): void {
     this.#spares.clear();
     super.dispose();
-  }
-
-  protected override create(bindings: Bindings, numbers: Coordinates, choices: CloudChoices): CloudInfo {
-    return this.dimension > 3
-      ? bindings.createHyperCloud(numbers as Float64Array, this.dimension, choices)
-      : super.create(bindings, numbers, choices);
-  }
-
-  protected override add(bindings: Bindings, handle: number, numbers: Coordinates): CloudSize {
-    return this.dimension > 3
-      ? bindings.appendHyper(handle, numbers as Float64Array)
-      : super.add(bindings, handle, numbers);
   }
 }

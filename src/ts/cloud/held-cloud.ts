@@ -8,9 +8,6 @@ import { freeCloud, unreachable } from "./free.js";
 /** The exports that every wasm has. */
 export type OperatorBindings = Omit<typeof lite, "__wbg_set_wasm">;
 
-export type Coordinates = Float32Array | Float64Array;
-export type CloudChoices = Parameters<OperatorBindings["createCloud"]>[1];
-export type CloudInfo = ReturnType<OperatorBindings["createCloud"]>;
 
 /** A cloud's place: its number in an instance. */
 interface Held<Bindings> {
@@ -37,7 +34,7 @@ export class HeldCloud<Bindings extends OperatorBindings> {
     const numbers = readPacked(positions, settings);
     const choices = { skipNonFinite: settings.skipNonFinite, progress };
     this.settings = settings;
-    const { handle, ...size } = instance.call((bindings) => this.create(bindings, numbers, choices));
+    const { handle, ...size } = instance.call((bindings) => bindings.createCloud(numbers, settings.dimension, choices));
     this.#held = { instance, handle };
     this.#size = size;
     unreachable.register(this, this.#held, this);
@@ -69,7 +66,7 @@ export class HeldCloud<Bindings extends OperatorBindings> {
     const numbers = readPacked(positions, this.settings);
     // Getters of the argument may have disposed of the cloud while it was read.
     const { instance, handle } = this.requireOpen();
-    this.#size = instance.call((bindings) => this.add(bindings, handle, numbers));
+    this.#size = instance.call((bindings) => bindings.append(handle, numbers));
   }
 
   /** @throws HprError as `PointCloud.remove`. */
@@ -88,16 +85,8 @@ export class HeldCloud<Bindings extends OperatorBindings> {
       this.#held = undefined;
     }
   }
-
-  protected create(bindings: Bindings, numbers: Coordinates, choices: CloudChoices): CloudInfo {
-    return bindings.createCloud(numbers, choices);
-  }
-
-  protected add(bindings: Bindings, handle: number, numbers: Coordinates): CloudSize {
-    return bindings.append(handle, numbers);
-  }
 }
 
-function readPacked(positions: unknown, { stride, dimension }: CloudSettings): Coordinates {
+function readPacked(positions: unknown, { stride, dimension }: CloudSettings): Float32Array | Float64Array {
   return packed(readPositions(positions, stride), stride, dimension);
 }

@@ -26,7 +26,7 @@ const performers: { [K in QueryKind]: (target: Target, query: Query<K>) => Answe
     const options = coreOptions(settings, target.spares);
     const answer = instance.call((bindings) => {
       if (dimension > 3) {
-        return bindings.hyperVisibleFrom(handle, Float64Array.from(viewpoint), 1, options);
+        return bindings.visibleFromSeveral(handle, Float64Array.from(viewpoint), 1, options);
       }
       return sector === undefined
         ? bindings.visibleFrom(handle, x, y, z, options)
@@ -63,13 +63,9 @@ const performers: { [K in QueryKind]: (target: Target, query: Query<K>) => Answe
   },
 
   visibleFromSeveral: (target, { viewpoints, k, settings }) => {
-    const { instance, handle, dimension } = target;
+    const { instance, handle } = target;
     const options = coreOptions(settings, target.spares);
-    const answer = instance.call((bindings) =>
-      dimension > 3
-        ? bindings.hyperVisibleFrom(handle, viewpoints, k, options)
-        : bindings.visibleFromSeveral(handle, viewpoints, k, options),
-    );
+    const answer = instance.call((bindings) => bindings.visibleFromSeveral(handle, viewpoints, k, options));
     return found(target, settings, answer);
   },
 
