@@ -8,7 +8,6 @@ import { freeCloud, unreachable } from "./free.js";
 /** The exports that every wasm has. */
 export type OperatorBindings = Omit<typeof lite, "__wbg_set_wasm">;
 
-
 /** A cloud's place: its number in an instance. */
 interface Held<Bindings> {
   instance: Instance<Bindings>;
