@@ -24,9 +24,10 @@ await command(async () => {
     await buildWasm();
     await buildPackage();
   }
-  const programs = chosen.flatMap(({ program }) => (program === undefined ? [] : ["--bin", program]));
-  if (programs.length > 0) {
-    const args = ["build", "--locked", "--profile", "fuzz", "--package", "hpr-tests", ...programs];
+  const programs = new Set(chosen.flatMap(({ program }) => (program === undefined ? [] : [program])));
+  if (programs.size > 0) {
+    const bins = [...programs].flatMap((program) => ["--bin", program]);
+    const args = ["build", "--locked", "--profile", "fuzz", "--package", "hpr-tests", ...bins];
     await mustRun("cargo", args, "The fuzzers do not build");
   }
 

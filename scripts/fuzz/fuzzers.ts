@@ -1,4 +1,4 @@
-import { existsSync, readFileSync } from "node:fs";
+import { readFileSync } from "node:fs";
 
 import { inRoot } from "../lib/paths.js";
 
@@ -20,22 +20,24 @@ const FUNCTIONS: Record<string, { file: string; name: string }> = {
   qhull: { file: "tests/fuzz/qhull.ts", name: "fuzzQhull" },
   border: { file: "tests/fuzz/border.ts", name: "fuzzBorder" },
   stream: { file: "tests/fuzz/stream.ts", name: "fuzzStream" },
-  workers: { file: "tests/fuzz/workers.ts", name: "fuzzWorkers" },
 };
 
-/** Every Rust program `fuzz_…` of tests/Cargo.toml, and the functions whose file exists. */
+/** Every check of tests/core/checks, every other Rust program `fuzz_…` of tests/Cargo.toml, and the functions. */
 export function allFuzzers(): Fuzzer[] {
-  const programs = [...readFileSync(inRoot("tests/Cargo.toml"), "utf8").matchAll(/^name = "fuzz_(\w+)"$/gm)];
-  const inRust = programs.map(([, title]) => rust(title!));
-  const functions = Object.entries(FUNCTIONS).filter(([, { file }]) => existsSync(inRoot(file)));
-  return [...inRust, ...functions.map(([title, { file, name }]) => typescript(title, file, name))];
+  const checks = named("tests/core/checks/mod.rs", /^ {4}check\("(\w+)"/gm).map((title) => rust(title, "fuzz_core"));
+  const programs = named("tests/Cargo.toml", /^name = "fuzz_(?!core)(\w+)"$/gm).map((title) => rust(title));
+  return [...checks, ...programs, ...Object.entries(FUNCTIONS).map(([title, it]) => typescript(title, it))];
 }
 
-function rust(title: string): Fuzzer {
-  const program = `fuzz_${title}`;
-  return { title, program, command: [inRoot("target", "fuzz", program)] };
+function named(file: string, pattern: RegExp): string[] {
+  return [...readFileSync(inRoot(file), "utf8").matchAll(pattern)].map(([, title]) => title!);
 }
 
-function typescript(title: string, file: string, name: string): Fuzzer {
+function rust(title: string, program = `fuzz_${title}`): Fuzzer {
+  const check = program === "fuzz_core" ? ["--check", title] : [];
+  return { title, program, command: [inRoot("target", "fuzz", program), ...check] };
+}
+
+function typescript(title: string, { file, name }: { file: string; name: string }): Fuzzer {
   return { title, command: [process.execPath, inRoot("target", "scripts", "fuzz", "function.js"), file, name] };
 }

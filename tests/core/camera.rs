@@ -1,70 +1,13 @@
 //! What a camera sees: the view from its place, cut to its image.
 
 use hidden_point_removal::{
-    Camera, CameraModel, Convention, Error, Inversion, Options, Placing, PointCloud, Pose, Seat,
-    Within,
+    Camera, CameraModel, Convention, Error, Options, Placing, PointCloud, Pose, Seat, Within,
 };
 
-use crate::common::cameras::{LENSES, camera, matrix, shown};
+use crate::common::cameras::{LENSES, camera, matrix};
 use crate::common::placing::eager;
 use crate::common::rng::Rng;
 use crate::common::shapes;
-
-#[test]
-fn a_camera_sees_the_view_from_its_place_cut_to_its_image() {
-    let mut rng = Rng::new(1);
-    let points = shapes::bumpy(&mut rng, 3000);
-    let cloud = PointCloud::new(&points).unwrap();
-    let (mut total, mut cut, mut doubts) = (0, 0, 0);
-    for (number, (model, distortion)) in LENSES.into_iter().enumerate() {
-        for convention in [Convention::OpenCv, Convention::OpenGl] {
-            for (from, depth) in [([0.1, 0.2, 2.4], 2.0), ([0.05, 0.1, 0.15], 0.8)] {
-                let ahead = from.map(|x| -x);
-                let mut camera = camera(&mut rng, from, ahead, convention);
-                (camera.model, camera.distortion) = (model, distortion);
-                if number == 1 {
-                    (camera.near, camera.far) = (0.8 * depth, depth);
-                }
-                let all = [
-                    Options::default(),
-                    Options::with_exponent(3.0),
-                    Options::with_inversion(Inversion::Looks(2)),
-                    Options::default().denoise(5),
-                    Options::default().within(Within {
-                        distance: Some(2.2),
-                        bounds: None,
-                    }),
-                ];
-                // Each lens with some of the options: all of them take a minute.
-                for options in [&all[number % 5], &all[(number + 2) % 5]] {
-                    let seen = cloud.visible_from_camera(&camera, options).unwrap();
-                    let whole = cloud.visible_from(from, options).unwrap();
-                    let places = seen.pixels.iter().zip(&seen.depths);
-                    let mut found = seen.visibility.indices().iter().zip(places).peekable();
-                    for &index in whole.indices() {
-                        let at = shown(&camera, points[index as usize]);
-                        let Some((_, (own, deep))) = found.next_if(|(i, _)| **i == index) else {
-                            assert!(!at.inside || at.in_doubt, "{camera:?}: {at:?}");
-                            continue;
-                        };
-                        assert!(at.inside || at.in_doubt, "{camera:?}: {at:?}");
-                        let error = (0..2).map(|i| (f64::from(own[i]) - at.pixel[i]).abs());
-                        assert!(error.fold(0.0, f64::max) < 1e-3, "{own:?}, {at:?}");
-                        assert!((f64::from(*deep) - at.depth).abs() < 1e-6 * at.depth);
-                        doubts += usize::from(at.in_doubt);
-                        total += 1;
-                    }
-                    assert_eq!(found.next(), None);
-                    cut += whole.count() - seen.visibility.count();
-                    assert_eq!(seen.visibility.radius(), whole.radius());
-                    assert_eq!(seen.visibility.looks(), whole.looks());
-                }
-            }
-        }
-    }
-    assert!(total.min(cut) > 10_000, "{total} points, and {cut} outside");
-    assert!(100 * doubts < total, "{doubts} of {total} points");
-}
 
 #[test]
 fn borders_of_the_image_belong_to_it_above_and_on_the_left() {

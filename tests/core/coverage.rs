@@ -1,9 +1,8 @@
 //! Many viewpoints: counts, and the greedy choice against every choice.
 
-use hidden_point_removal::{Inversion, Options, Placement, Placing, PointCloud, Within};
+use hidden_point_removal::{Inversion, Options, Placing, PointCloud};
 
 use crate::common::NOWHERE;
-use crate::common::placing::{best, eager, masks};
 use crate::common::rng::Rng;
 use crate::common::shapes;
 
@@ -16,68 +15,6 @@ fn scene(seed: u64) -> (PointCloud, Vec<[f64; 3]>, Vec<f64>) {
     let weights = points.iter().map(|_| f64::from(rng.integer(0, 4)) * 0.1);
     let weights = weights.collect();
     (PointCloud::new(&points).unwrap(), candidates, weights)
-}
-
-#[test]
-fn coverage_counts_the_views() {
-    let (cloud, places, _) = scene(1);
-    let distance = Some(1.5);
-    let bounds = Some([[-0.7; 3], [2.0; 3]]);
-    for options in [
-        Options::default(),
-        Options::with_inversion(Inversion::Looks(2)),
-        Options::default().denoise(4).vote(3).sample(120),
-        Options::default()
-            .within(Within { distance, bounds })
-            .denoise(3),
-    ] {
-        let masks = masks(&cloud, &places, &options);
-        let counts = cloud.coverage(&places, &options).unwrap();
-        for (index, count) in counts.into_iter().enumerate() {
-            let views = masks.iter().filter(|mask| mask[index]).count();
-            assert_eq!(count as usize, views, "{options:?}");
-        }
-    }
-    assert_eq!(
-        cloud.coverage(&NOWHERE, &Options::default()),
-        Ok(vec![0; 250])
-    );
-}
-
-#[test]
-fn the_lazy_choice_is_the_greedy_choice_and_near_the_best() {
-    let options = Options::default();
-    for seed in 0..12 {
-        let (cloud, mut candidates, weights) = scene(seed);
-        // Equal candidates tie: the lowest number wins.
-        candidates.push(candidates[0]);
-        let masks = masks(&cloud, &candidates, &options);
-        for weights in [vec![1.0; 250], weights] {
-            for count in 1..=4 {
-                let placing = Placing {
-                    count: Some(count),
-                    weights: Some(&weights),
-                    ..Placing::default()
-                };
-                let placed = cloud.place_viewpoints(&candidates, &options, &placing);
-                let Placement {
-                    chosen,
-                    gains,
-                    seen,
-                    unseen,
-                } = placed.unwrap();
-                let expected = eager(&masks, &weights, count);
-                assert_eq!((&chosen, &gains), (&expected.0, &expected.1), "seed {seed}");
-                let by_chosen = |&index: &u32| chosen.iter().any(|&k| masks[k][index as usize]);
-                let by_any = |index: &u32| masks.iter().any(|mask| mask[*index as usize]);
-                assert_eq!(seen, (0..250).filter(by_chosen).collect::<Vec<_>>());
-                assert_eq!(unseen, (0..250).filter(|k| !by_any(k)).collect::<Vec<_>>());
-                let got: f64 = gains.iter().sum();
-                let bound = 1.0 - (-1.0f64).exp();
-                assert!(got >= bound * best(&masks, &weights, count) - 1e-9);
-            }
-        }
-    }
 }
 
 #[test]

@@ -6,8 +6,7 @@ use hidden_point_removal::{
 };
 
 use crate::common::rng::Rng;
-use crate::common::scenes::KINDS;
-use crate::common::{ask, indices_of, lower, shapes};
+use crate::common::{ask, shapes};
 
 fn along(points: &[[f64; 3]], direction: [f64; 3], options: &Options) -> Visibility {
     let cloud = PointCloud::new(points).unwrap();
@@ -36,50 +35,6 @@ fn an_empty_cloud_refuses_the_radii_that_any_cloud_refuses() {
     assert!(matches!(found, Err(Error::Parameter { .. })), "{found:?}");
     assert_eq!(ask(Radius::Auto).unwrap().count(), 0);
     assert_eq!(ask(Radius::Absolute(5.0)).unwrap().count(), 0);
-}
-
-#[test]
-fn integers_along_the_axes_are_answered_by_the_definition() {
-    let mut rng = Rng::new(31);
-    for case in 0..400 {
-        let half = rng.integer(1, 4);
-        let n = rng.below(14);
-        // Some clouds lie in one plane, line or column.
-        let flat = rng.below(8);
-        let points: Vec<[f64; 3]> = (0..n)
-            .map(|_| {
-                core::array::from_fn(|axis| {
-                    if flat == axis || flat == 3 && axis != 2 {
-                        return 1.0;
-                    }
-                    f64::from(rng.integer(-half, half))
-                })
-            })
-            .collect();
-        for axis in 0..3 {
-            for sign in [-1.0, 1.0] {
-                let mut direction = [0.0; 3];
-                direction[axis] = 2.5 * sign;
-                // a = 1 and a = 2, or next to a plain hull.
-                for bend in [1, 2] {
-                    let lifted: Vec<[i64; 3]> = points
-                        .iter()
-                        .map(|p| {
-                            let p = p.map(|x| x as i64);
-                            let [x, y] = [p[(axis + 1) % 3], p[(axis + 2) % 3]];
-                            [x, y, sign as i64 * p[axis] + bend * (x * x + y * y)]
-                        })
-                        .collect();
-                    let answer = along(&points, direction, &exponential(0.5 / bend as f64));
-                    assert_eq!(
-                        answer.indices(),
-                        indices_of(&lower::visible(&lifted)),
-                        "case {case}, {points:?} along {direction:?}, a = {bend}"
-                    );
-                }
-            }
-        }
-    }
 }
 
 #[test]
@@ -176,34 +131,6 @@ fn both_sides_of_a_shell_are_seen_from_their_sides() {
         .filter(|(a, b)| **a == 1 && *b == 1)
         .count();
     assert!(both < 200, "{both}");
-}
-
-#[test]
-fn order_duplicates_length_and_power_of_two_scales_change_nothing() {
-    for kind in KINDS {
-        let scene = kind.scene(6, 70);
-        let mut rng = Rng::new(6);
-        let direction = rng.direction();
-        let options = Options::default();
-        let mask = along(&scene.points, direction, &options).mask();
-        let order: Vec<usize> = (0..100)
-            .map(|i| if i < 70 { i } else { rng.below(70) })
-            .collect();
-        let mut order = order;
-        rng.shuffle(&mut order);
-        let points: Vec<_> = order.iter().map(|&i| scene.points[i]).collect();
-        let shuffled = along(&points, direction.map(|x| x * 0.25), &options).mask();
-        for (k, &i) in order.iter().enumerate() {
-            assert_eq!(shuffled[k], mask[i], "{}", kind.name);
-        }
-        let scaled: Vec<_> = scene.points.iter().map(|p| p.map(|x| x * 8.0)).collect();
-        assert_eq!(
-            along(&scaled, direction, &options).mask(),
-            mask,
-            "{}",
-            kind.name
-        );
-    }
 }
 
 #[test]

@@ -7,23 +7,14 @@ use hidden_point_removal::{
 };
 
 use crate::common::NOWHERE;
-use crate::common::drafts::fault;
 use crate::common::rng::Rng;
-use crate::common::scenes::{EXTREME, KINDS};
 use crate::common::shapes::{self, Points};
-use crate::common::walk::Walk;
 
 /// Enough points for a map of directions.
 const MANY: usize = 6000;
 
 fn drafted(options: Options) -> Options {
     options.draft(true)
-}
-
-fn assert_sound(points: &[[f64; 3]], viewpoint: [f64; 3], options: &Options, title: &str) {
-    let cloud = PointCloud::new(points).expect("an acceptable cloud");
-    let found = fault(&cloud, &mut cloud.observer(), viewpoint, options);
-    assert_eq!(found, None, "{title}, from {viewpoint:?} with {options:?}");
 }
 
 fn inversions() -> [Options; 6] {
@@ -35,92 +26,6 @@ fn inversions() -> [Options; 6] {
         Options::with_inversion(Inversion::Exponential(Exponential::Auto)),
         Options::with_exponent(2.0).vote(5),
     ]
-}
-
-#[test]
-fn drafts_of_scenes_of_every_kind_hold_all_that_is_visible() {
-    for (number, kind) in KINDS.iter().chain(EXTREME).enumerate() {
-        for n in [0, 5, 300, MANY] {
-            if n > 100 && EXTREME.iter().any(|extreme| extreme.name == kind.name) {
-                continue;
-            }
-            let scene = kind.scene(number as u64, n);
-            assert_sound(&scene.points, scene.viewpoint, &scene.options, kind.name);
-        }
-    }
-}
-
-#[test]
-fn drafts_hold_all_that_is_visible_with_every_inversion() {
-    let mut rng = Rng::new(1);
-    let shapes: [fn(&mut Rng, usize) -> Points; 3] = [shapes::bumpy, shapes::room, shapes::ball];
-    for shape in shapes {
-        let points = shape(&mut rng, MANY);
-        for options in inversions() {
-            for viewpoint in [[0.3, 0.2, 0.1], [5.0, 7.0, 4.0]] {
-                assert_sound(&points, viewpoint, &options, "a shape");
-            }
-        }
-    }
-}
-
-#[test]
-fn drafts_from_within_the_planes_of_walls_hold_all_that_is_visible() {
-    let mut rng = Rng::new(2);
-    let points = shapes::room(&mut rng, MANY);
-    for viewpoint in [
-        [4.0, 0.3, 0.2],
-        [9.0, 3.0, 0.1],
-        [-7.0, -3.0, 1.25],
-        [0.5, 0.2, -1.25],
-    ] {
-        for exponent in [0.0, 2.0, 3.0] {
-            let options = Options::with_exponent(exponent);
-            assert_sound(&points, viewpoint, &options, "a wall");
-        }
-    }
-}
-
-#[test]
-fn drafts_from_very_far_away_hold_all_that_is_visible() {
-    let mut rng = Rng::new(3);
-    let points = shapes::bumpy(&mut rng, MANY);
-    for far in [1e3, 1e5, 1e7, 1e9, 1e15] {
-        let viewpoint = [0.6 * far, 0.0, 0.8 * far];
-        for options in inversions() {
-            assert_sound(&points, viewpoint, &options, "far away");
-        }
-    }
-    let away = points.iter().map(|p| p.map(|x| x * 1e-3 + 1e9)).collect();
-    let away: Points = away;
-    for options in inversions() {
-        assert_sound(
-            &away,
-            [1e9 + 0.01, 1e9, 1e9 - 0.002],
-            &options,
-            "in map units",
-        );
-    }
-}
-
-#[test]
-fn what_was_asked_before_changes_no_draft() {
-    let mut rng = Rng::new(4);
-    let points = shapes::bumpy(&mut rng, MANY);
-    let cloud = PointCloud::new(&points).expect("an acceptable cloud");
-    let mut observer = cloud.observer();
-    let mut walk = Walk::new(&points, [0.0, 0.0, 3.0], Options::default());
-    for step in 0..60 {
-        walk.step(&mut rng);
-        if rng.chance(3) {
-            // An exact view, or a draft without an exact answer after it.
-            let options = walk.options.draft(rng.chance(2));
-            let _ = observer.visible_from(walk.viewpoint, &options);
-            walk.step(&mut rng);
-        }
-        let found = fault(&cloud, &mut observer, walk.viewpoint, &walk.options);
-        assert_eq!(found, None, "step {step}, {:?}", walk.options);
-    }
 }
 
 #[test]

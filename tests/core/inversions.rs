@@ -1,13 +1,10 @@
 //! The other inversions: powers and exponentials, by the same definition.
 
-use hidden_point_removal::{
-    Error, Exponential, Inversion, Options, PointCloud, Radius, merge_visible,
-};
+use hidden_point_removal::{Exponential, Inversion, Options, PointCloud, Radius};
 
-use crate::common::flip::{farthest, flip_as};
+use crate::common::flip::farthest;
 use crate::common::rng::Rng;
-use crate::common::scenes::{EXTREME, KINDS, Scene};
-use crate::common::{ask, indices_of, oracle, proved_flipped, shapes};
+use crate::common::{ask, shapes};
 
 const FRONT: [f64; 3] = [0.0, 0.0, 3.0];
 
@@ -20,57 +17,6 @@ fn exponential(scale: f64) -> Options {
 }
 
 const AUTOMATIC: Inversion = Inversion::Exponential(Exponential::Auto);
-
-/// Every kind of inversion, mild and strong.
-fn choices(farthest: f64) -> Vec<Options> {
-    let mut choices: Vec<_> = [1.0000001, 1.2, 2.0, 3.5, 16.0].map(power).to_vec();
-    choices.push(power(2.0).radius(Radius::Absolute(farthest.max(1e-300) * 3.0)));
-    choices
-        .extend([1e-9, 1e-3, 0.1, 3.0, 1e4].map(|times| exponential(times * farthest.max(1e-300))));
-    choices.push(Options::with_inversion(AUTOMATIC));
-    choices
-}
-
-fn flipped(scene: &Scene, options: &Options) -> (Vec<u32>, Vec<Option<[f64; 3]>>) {
-    let answer = ask(&scene.points, scene.viewpoint, options);
-    let flip = |&p: &[f64; 3]| flip_as(p, scene.viewpoint, &answer);
-    let flipped = scene.points.iter().map(flip).collect();
-    (answer.into_indices(), flipped)
-}
-
-#[test]
-fn small_scenes_are_answered_by_the_definition() {
-    for kind in KINDS.iter().chain(EXTREME) {
-        for seed in 0..30 {
-            let scene = kind.scene(seed, (seed % 11) as usize);
-            for options in choices(farthest(&scene.points, scene.viewpoint)) {
-                let (answer, flipped) = flipped(&scene, &options);
-                let expected = indices_of(&oracle::visible_flipped(&flipped));
-                let title = kind.name;
-                assert_eq!(answer, expected, "{title} with seed {seed}, {options:?}");
-            }
-        }
-    }
-}
-
-#[test]
-fn larger_scenes_are_certified() {
-    for kind in KINDS {
-        let scene = kind.scene(2000, 80);
-        for options in choices(farthest(&scene.points, scene.viewpoint)) {
-            let (answer, flipped) = flipped(&scene, &options);
-            let sizes = flipped.iter().flatten().flatten().map(|x| x.abs());
-            let sizes: Vec<f64> = sizes.filter(|&x| x > 0.0).collect();
-            let range = sizes.iter().copied().fold(0.0, f64::max)
-                / sizes.iter().copied().fold(f64::MAX, f64::min);
-            // Beyond this, the arithmetic of the certificates would not be exact.
-            if range < 1e40 {
-                let expected = indices_of(&proved_flipped(&flipped));
-                assert_eq!(answer, expected, "{}, {options:?}", kind.name);
-            }
-        }
-    }
-}
 
 #[test]
 fn answers_say_which_inversion_they_used() {
@@ -136,27 +82,6 @@ fn points_on_a_plane_are_all_visible_whatever_the_inversion() {
     }
     for options in [power(1.1), power(4.0), exponential(0.01), exponential(2.0)] {
         assert_eq!(ask(&points, FRONT, &options).count(), 900, "{options:?}");
-    }
-}
-
-#[test]
-fn parts_flipped_alike_merge_exactly() {
-    let mut rng = Rng::new(12);
-    let points = shapes::bumpy(&mut rng, 900);
-    let unit = Radius::Absolute(9.0);
-    for options in [power(1.7).radius(unit), exponential(0.02)] {
-        let whole = ask(&points, FRONT, &options);
-        let ids: Vec<u32> = (0..900).collect();
-        let parts: Vec<_> = points.chunks(300).zip(ids.chunks(300)).collect();
-        assert_eq!(
-            merge_visible(&parts, FRONT, &options).unwrap(),
-            whole.indices()
-        );
-    }
-    let parts = [(&points[..], &[0; 900][..])];
-    for options in [power(1.7), Options::with_inversion(AUTOMATIC)] {
-        let error = merge_visible(&parts, FRONT, &options).unwrap_err();
-        assert_eq!(error, Error::MergeRadius);
     }
 }
 

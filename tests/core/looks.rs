@@ -67,54 +67,6 @@ fn on_a_grid((i, _): (usize, [f64; 3])) -> [f64; 3] {
 }
 
 #[test]
-fn neither_order_nor_duplicates_nor_changes_nor_earlier_views_change_a_bit() {
-    for (title, scene, options, mut rng) in scenes() {
-        let Scene {
-            points, viewpoint, ..
-        } = scene;
-        let before = ask(&points, viewpoint, &options);
-        let n = points.len();
-
-        let mut order: Vec<usize> = (0..n).collect();
-        rng.shuffle(&mut order);
-        let shuffled: Vec<_> = order.iter().map(|&i| points[i]).collect();
-        let after = ask(&shuffled, viewpoint, &options);
-        let (mask, seen) = (before.mask(), after.mask());
-        for (now, &then) in order.iter().enumerate() {
-            assert_eq!(seen[now], mask[then], "{title}, point {then}");
-            let scores = [after.scores()[now], before.scores()[then]];
-            assert_eq!(scores[0].to_bits(), scores[1].to_bits(), "{title}, {then}");
-        }
-
-        // Every point twice, by appending copies. Then other points are appended and removed.
-        let mut cloud = PointCloud::new(&points).unwrap();
-        cloud.append(&points).unwrap();
-        let strangers: Vec<[f64; 3]> = (0..20).map(|_| rng.in_ball()).collect();
-        cloud.append(&strangers).unwrap();
-        let gone: Vec<u32> = (2 * n as u32..).take(20).collect();
-        cloud.remove(&gone).unwrap();
-        let doubled = cloud.visible_from(viewpoint, &options).unwrap();
-        assert_eq!(doubled.mask()[..n], mask, "{title}");
-        assert_eq!(doubled.mask()[n..2 * n], mask, "{title}");
-        assert_eq!(bits(&doubled)[..n], bits(&before), "{title}");
-        assert_eq!(bits(&doubled)[2 * n..], [0; 20], "{title}");
-
-        let cloud = PointCloud::new(&points).unwrap();
-        let mut observer = cloud.observer();
-        for (step, options) in [Options::default(), options, looks(2), options, options]
-            .iter()
-            .enumerate()
-        {
-            let near = viewpoint.map(|x| x + 1e-3 * step as f64);
-            let _ = observer.visible_from(near, &Options::default());
-            let after = observer.visible_from(viewpoint, options).unwrap();
-            let alone = cloud.visible_from(viewpoint, options).unwrap();
-            assert_same(&title, &after, &alone);
-        }
-    }
-}
-
-#[test]
 fn single_and_double_precision_are_one_answer() {
     let mut rng = Rng::new(5);
     let single: Vec<[f32; 3]> = (0..3000)

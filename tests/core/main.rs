@@ -1,10 +1,11 @@
 //! Compares the core with its definition.
 
+mod checks;
 mod common;
+mod short;
 
 mod automatic;
 mod camera;
-mod certificates;
 mod changes;
 mod coverage;
 mod definition;
@@ -15,7 +16,6 @@ mod guarantees;
 mod horizon;
 mod hyperspace;
 mod illumination;
-mod invariance;
 mod inversions;
 mod looks;
 mod looks_along;
@@ -28,7 +28,6 @@ mod noise;
 mod oracle;
 mod panorama;
 mod plane;
-mod queries;
 mod radius;
 mod reconstruct;
 mod refusals;
@@ -38,10 +37,6 @@ mod sees;
 mod share;
 mod survivors;
 mod thin;
-#[cfg(feature = "std")]
 mod threads;
 mod union;
 mod within;
-
-#[path = "../fuzz/queries/mod.rs"]
-mod kinds_of_queries;

@@ -1,12 +1,12 @@
 //! Merging the visible points of parts, for any division of a cloud.
 
 use hidden_point_removal::{
-    Error, Options, PointCloud, Position, Radius, merge_visible, merge_visible_u64,
+    Error, Exponential, Inversion, Options, PointCloud, Position, Radius, merge_visible,
+    merge_visible_u64,
 };
 
 use crate::common::ask;
 use crate::common::rng::Rng;
-use crate::common::scenes::KINDS;
 use crate::common::shapes;
 
 const FRONT: [f64; 3] = [0.0, 0.0, 5.0];
@@ -23,84 +23,6 @@ fn merge<P: Position>(
         .map(|(positions, ids)| (&positions[..], &ids[..]))
         .collect();
     merge_visible(&parts, viewpoint, options)
-}
-
-/// Divides points among `count` parts; some points may get into several.
-fn divide(rng: &mut Rng, points: &[[f64; 3]], count: usize) -> Vec<Part<[f64; 3]>> {
-    let mut parts = vec![(Vec::new(), Vec::new()); count];
-    for (id, &point) in (0..).zip(points) {
-        loop {
-            let (positions, ids) = &mut parts[rng.below(count)];
-            positions.push(point);
-            ids.push(id);
-            if !rng.chance(8) {
-                break;
-            }
-        }
-    }
-    parts
-}
-
-/// The points of a part that are visible in it, and sometimes a few other points.
-fn seen_in(
-    rng: &mut Rng,
-    (positions, ids): &Part<[f64; 3]>,
-    viewpoint: [f64; 3],
-    options: &Options,
-    extra: bool,
-) -> Part<[f64; 3]> {
-    let visible = ask(positions, viewpoint, options).mask();
-    (0..positions.len())
-        .filter(|&k| visible[k] == 1 || extra && rng.chance(3))
-        .map(|k| (positions[k], ids[k]))
-        .unzip()
-}
-
-#[test]
-fn any_division_gives_the_answer_of_the_whole() {
-    for kind in KINDS {
-        for (seed, n) in [(1, 9), (2, 30), (3, 31), (4, 400), (5, 1500)] {
-            let scene = kind.scene(seed, n);
-            let (points, viewpoint) = (&scene.points, scene.viewpoint);
-            let whole = ask(points, viewpoint, &scene.options);
-            if whole.radius() == 0.0 {
-                continue;
-            }
-            let options = Options::with_radius(whole.radius());
-            let mut rng = Rng::new(seed);
-            for count in [1, 2, 3, 7] {
-                let divided = divide(&mut rng, points, count);
-                let parts: Vec<_> = divided
-                    .iter()
-                    .map(|part| seen_in(&mut rng, part, viewpoint, &options, count == 3))
-                    .collect();
-                let title = format!("{} with seed {seed} in {count} parts", kind.name);
-                let merged = merge(&parts, viewpoint, &options).unwrap();
-                assert_eq!(merged, whole.indices(), "{title}");
-                // A part that was not filtered is a superset, too.
-                let merged = merge(&divided, viewpoint, &options).unwrap();
-                assert_eq!(merged, whole.indices(), "{title}, unfiltered");
-            }
-        }
-    }
-}
-
-#[test]
-fn merges_can_be_merged_again() {
-    let mut rng = Rng::new(6);
-    let points = shapes::bumpy(&mut rng, 2000);
-    let options = Options::with_exponent(3.0);
-    let whole = ask(&points, FRONT, &options);
-    let options = Options::with_radius(whole.radius());
-    let parts = divide(&mut rng, &points, 8);
-    let twice: Vec<_> = parts
-        .chunks(2)
-        .map(|pair| {
-            let ids = merge(pair, FRONT, &options).unwrap();
-            (ids.iter().map(|&id| points[id as usize]).collect(), ids)
-        })
-        .collect();
-    assert_eq!(merge(&twice, FRONT, &options).unwrap(), whole.indices());
 }
 
 #[test]
@@ -123,8 +45,13 @@ fn what_cannot_be_merged_is_refused() {
     let part = || (points.clone(), (0..20).collect::<Vec<u32>>());
     let fits = Options::with_radius(100.0);
 
-    for radius in [Radius::Auto, Radius::Exponent(3.0)] {
-        let error = merge(&[part()], FRONT, &Options::default().radius(radius)).unwrap_err();
+    for options in [
+        Options::default(),
+        Options::with_exponent(3.0),
+        Options::with_inversion(Inversion::Power(1.7)),
+        Options::with_inversion(Inversion::Exponential(Exponential::Auto)),
+    ] {
+        let error = merge(&[part()], FRONT, &options).unwrap_err();
         assert_eq!((error, error.code()), (Error::MergeRadius, "option"));
         assert!(error.to_string().contains("radius"));
     }

@@ -3,7 +3,6 @@
 use hidden_point_removal::{Error, Options, PointCloud, merge_visible};
 
 use crate::common::rng::Rng;
-use crate::common::scenes::KINDS;
 use crate::common::{ask, shapes};
 
 const FRONT: [f64; 3] = [0.0, 0.0, 3.0];
@@ -14,56 +13,6 @@ fn voting(k: usize) -> Options {
 
 fn denoising(k: usize) -> Options {
     Options::default().denoise(k)
-}
-
-/// The distinct points, sorted by their distance from `p`, and by coordinates if distances are
-/// equal. p itself comes first.
-fn by_distance(points: &[[f64; 3]], p: [f64; 3]) -> Vec<[f64; 3]> {
-    let squared = |q: [f64; 3]| {
-        let v: [f64; 3] = core::array::from_fn(|i| p[i] - q[i]);
-        v[0] * v[0] + v[1] * v[1] + v[2] * v[2]
-    };
-    let mut sorted = points.to_vec();
-    sorted.sort_by(|&a, &b| (squared(a), a).partial_cmp(&(squared(b), b)).unwrap());
-    sorted.dedup();
-    sorted
-}
-
-#[test]
-fn votes_are_counted_among_the_nearest_distinct_points() {
-    for kind in KINDS {
-        for (seed, n, k) in [
-            (1, 12, 1),
-            (2, 60, 6),
-            (3, 200, 16),
-            (4, 90, 89),
-            // Of 5 and 10 points, exactly 0.4 can be seen, which is not enough.
-            (5, 120, 4),
-            (6, 60, 9),
-        ] {
-            let scene = kind.scene(seed, n);
-            let plain = ask(&scene.points, scene.viewpoint, &scene.options);
-            let options = scene.options.vote(k);
-            let voted = ask(&scene.points, scene.viewpoint, &options);
-            assert_eq!(voted.radius(), plain.radius());
-            let mut cloud = PointCloud::new(&scene.points).unwrap();
-            cloud.prepare_for(&options).unwrap();
-            let prepared = cloud.visible_from(scene.viewpoint, &options).unwrap();
-            assert_eq!(prepared, voted);
-            let mask = plain.mask();
-            let is_seen =
-                |p: &[f64; 3]| mask[scene.points.iter().position(|q| q == p).unwrap()] == 1;
-            let expected: Vec<u32> = (0..n as u32)
-                .filter(|&i| {
-                    let near = by_distance(&scene.points, scene.points[i as usize]);
-                    let near = &near[..near.len().min(k + 1)];
-                    let seen = near.iter().filter(|p| is_seen(p)).count();
-                    seen as f64 / near.len() as f64 > 0.4 + 1e-12
-                })
-                .collect();
-            assert_eq!(voted.indices(), expected, "{} with {n} points", kind.name);
-        }
-    }
 }
 
 /// A sphere whose points are moved along their normals. The points that face the viewer
@@ -186,32 +135,6 @@ fn points_on_planes_and_lines_stay_where_they_are() {
         let same = ask(&points, [9.5, 0.5, 0.5], &denoising(8));
         assert_eq!(same.indices(), plain.indices());
         assert!((same.radius() / plain.radius() - 1.0).abs() < 1e-12);
-    }
-}
-
-#[test]
-fn order_and_duplicates_change_nothing() {
-    for kind in KINDS {
-        let scene = kind.scene(15, 80);
-        let mut rng = Rng::new(15);
-        let mut order: Vec<usize> = (0..120)
-            .map(|i| if i < 80 { i } else { rng.below(80) })
-            .collect();
-        rng.shuffle(&mut order);
-        let points: Vec<_> = order.iter().map(|&i| scene.points[i]).collect();
-        let options = Options::default().vote(7).denoise(5);
-        let before = ask(&scene.points, scene.viewpoint, &options);
-        let after = ask(&points, scene.viewpoint, &options);
-        assert_eq!(
-            after.radius().to_bits(),
-            before.radius().to_bits(),
-            "{}",
-            kind.name
-        );
-        let (before, after) = (before.mask(), after.mask());
-        for (k, &i) in order.iter().enumerate() {
-            assert_eq!(after[k], before[i], "{}", kind.name);
-        }
     }
 }
 

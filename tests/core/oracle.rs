@@ -1,36 +1,7 @@
 //! The crate compared with the naive oracle, on thousands of small and mostly degenerate
 //! scenes. Also, the oracle compared with answers that are obvious by eye.
 
-use crate::common::scenes::{EXTREME, KINDS, Kind};
-use crate::common::{ask, indices_of, oracle};
-
-fn compare(kind: &Kind, seeds: std::ops::Range<u64>) {
-    for seed in seeds {
-        let scene = kind.scene(seed, (seed % 14) as usize);
-        let answer = ask(&scene.points, scene.viewpoint, &scene.options);
-        let expected = oracle::visible(&scene.points, scene.viewpoint, answer.radius());
-        assert_eq!(
-            answer.indices(),
-            indices_of(&expected),
-            "{} with seed {seed}: {scene:?}",
-            kind.name
-        );
-    }
-}
-
-#[test]
-fn every_kind_of_small_scene_is_answered_by_the_definition() {
-    for kind in KINDS {
-        compare(kind, 0..200);
-    }
-}
-
-#[test]
-fn the_ends_of_the_range_are_answered_by_the_definition() {
-    for kind in EXTREME {
-        compare(kind, 0..100);
-    }
-}
+use crate::common::oracle;
 
 /// Which of these flipped points are visible by the oracle's enumeration?
 fn enumerate<const N: usize>(q: [[f64; 3]; N]) -> [bool; N] {

@@ -2,9 +2,7 @@
 
 use hidden_point_removal::{Error, NonFinite, Options, PointCloud2d, Radius};
 
-use crate::common::flip::farthest;
 use crate::common::rng::Rng;
-use crate::common::{indices_of, oracle};
 
 fn seen(points: &[[f64; 2]], viewpoint: [f64; 2], options: &Options) -> Vec<u32> {
     let cloud = PointCloud2d::new(points).unwrap();
@@ -12,44 +10,6 @@ fn seen(points: &[[f64; 2]], viewpoint: [f64; 2], options: &Options) -> Vec<u32>
         .visible_from(viewpoint, options)
         .unwrap()
         .into_indices()
-}
-
-fn in_space(points: &[[f64; 2]]) -> Vec<[f64; 3]> {
-    points.iter().map(|&[x, y]| [x, y, 0.0]).collect()
-}
-
-#[test]
-fn small_scenes_are_answered_by_the_definition() {
-    let mut rng = Rng::new(71);
-    for case in 0..600 {
-        let n = rng.below(13);
-        let half = rng.integer(1, 6);
-        let rounded = rng.chance(2);
-        let points: Vec<[f64; 2]> = (0..n)
-            .map(|_| {
-                core::array::from_fn(|_| {
-                    let x = f64::from(rng.integer(-half, half));
-                    if rounded {
-                        x
-                    } else {
-                        x + rng.between(-0.5, 0.5)
-                    }
-                })
-            })
-            .collect();
-        let viewpoint = core::array::from_fn(|_| f64::from(rng.integer(-4, 4)));
-        let space = in_space(&points);
-        let place = [viewpoint[0], viewpoint[1], 0.0];
-        let radius = farthest(&space, place) * [1.0, 1.5, 10.0, 1e4][rng.below(4)];
-        if radius > 0.0 {
-            let answer = seen(&points, viewpoint, &Options::with_radius(radius));
-            let expected = indices_of(&oracle::visible(&space, place, radius));
-            assert_eq!(
-                answer, expected,
-                "case {case}: {points:?} from {viewpoint:?}"
-            );
-        }
-    }
 }
 
 #[test]

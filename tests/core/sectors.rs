@@ -3,7 +3,6 @@
 use hidden_point_removal::{Options, PointCloud, Radius, Sector};
 
 use crate::common::rng::Rng;
-use crate::common::scenes::{EXTREME, KINDS};
 use crate::common::{sectors, shapes, structured};
 
 /// Panics if the sectors and the whole view differ. Returns how many points each sector
@@ -17,60 +16,6 @@ fn compare(
 ) -> Vec<usize> {
     sectors::compare(cloud, viewpoint, options, count)
         .unwrap_or_else(|difference| panic!("{title}: {difference}"))
-}
-
-#[test]
-fn sectors_together_give_the_answer_of_the_whole() {
-    for kind in KINDS {
-        for (seed, n) in [
-            (1, 0),
-            (2, 9),
-            (3, 30),
-            (4, 65),
-            (5, 400),
-            (6, 1500),
-            (7, 5000),
-        ] {
-            let scene = kind.scene(seed, n);
-            let cloud = PointCloud::new(&scene.points).unwrap();
-            let title = format!("{} with seed {seed}", kind.name);
-            let mut rng = Rng::new(seed);
-            let anywhere = rng.in_ball().map(|x| 2.0 * x);
-            for count in 1..=4 {
-                compare(&cloud, scene.viewpoint, &scene.options, count, &title);
-                compare(&cloud, anywhere, &Options::default(), count, &title);
-            }
-        }
-    }
-}
-
-#[test]
-fn extreme_numbers_are_answered_too() {
-    for kind in EXTREME {
-        for seed in 1..4 {
-            let scene = kind.scene(seed, 150);
-            let cloud = PointCloud::new(&scene.points).unwrap();
-            let title = format!("{} with seed {seed}", kind.name);
-            compare(&cloud, scene.viewpoint, &scene.options, 3, &title);
-        }
-    }
-}
-
-/// A short form of `tests/fuzz/sectors.rs`.
-#[test]
-fn viewpoints_in_planes_and_on_lines_of_points_divide_too() {
-    let mut rng = Rng::new(12);
-    for &(kind, shape) in structured::SHAPES {
-        for n in [150, 700, 2200] {
-            let mut scene = structured::scene(&mut rng, (kind, shape), n);
-            let cloud = PointCloud::new(&scene.points).unwrap();
-            for count in [2, 2, 3, 5, 17] {
-                let title = format!("{kind}, {n} points, {:?}", scene.options);
-                compare(&cloud, scene.viewpoint, &scene.options, count, &title);
-                structured::move_on(&mut rng, kind, &mut scene);
-            }
-        }
-    }
 }
 
 /// The sector's own point flips exactly on to a face of the sector's hull. A far point hides it,
@@ -97,24 +42,6 @@ fn large_exponents_are_not_divided() {
     assert!(counts(7.9).iter().all(|&count| count > 0));
     for exponent in [8.0, 8.1, 12.0] {
         assert_eq!(counts(exponent)[1..], [0, 0], "exponent {exponent}");
-    }
-}
-
-#[test]
-fn every_radius_divides_alike() {
-    let mut rng = Rng::new(8);
-    for shape in [shapes::bumpy, shapes::room, shapes::ball] {
-        let points = shape(&mut rng, 4000);
-        let cloud = PointCloud::new(&points).unwrap();
-        for distance in [0.0, 0.3, 0.9, 3.0, 1e3, 1e7] {
-            let viewpoint = rng.direction().map(|x| distance * x);
-            for exponent in [0.0, 0.3, 1.0, 2.0, 4.0, 7.0, 9.0, 14.0] {
-                let options = Options::with_exponent(exponent);
-                let title = format!("{distance} away, exponent {exponent}");
-                compare(&cloud, viewpoint, &options, 2, &title);
-                compare(&cloud, viewpoint, &options, 5, &title);
-            }
-        }
     }
 }
 

@@ -1,88 +1,12 @@
 //! Points that are not in the cloud: the answer is that of a cloud with the point added, with the
 //! radius of the view without it.
 
-use hidden_point_removal::{
-    Error, Exponential, Inversion, NonFinite, Options, PointCloud, Radius, Within,
-};
+use hidden_point_removal::{Error, Inversion, NonFinite, Options, PointCloud, Within};
 
-use crate::common::added::{by_definition, check, choices, places};
+use crate::common::added::{by_definition, places};
 use crate::common::rng::Rng;
-use crate::common::scenes::{EXTREME, KINDS, Scene};
+use crate::common::scenes::Scene;
 use crate::common::shapes;
-use crate::common::structured;
-
-#[test]
-fn scenes_of_every_kind_answer_as_with_the_point_added() {
-    for (number, kind) in KINDS.iter().chain(EXTREME).enumerate() {
-        for (seed, n) in [0, 1, 2, 3, 4, 7, 20, 60].into_iter().enumerate() {
-            let seed = (10 * number + seed) as u64;
-            let scene = kind.scene(seed, n);
-            let mut rng = Rng::new(seed + 1000);
-            for options in choices(&scene) {
-                let places = places(&mut rng, &scene, 4);
-                check(&scene, &options, &places, kind.name);
-            }
-        }
-    }
-}
-
-#[test]
-fn structured_clouds_answer_as_with_the_point_added() {
-    for seed in 0..25 {
-        for &kind in structured::SHAPES {
-            let mut rng = Rng::new(seed);
-            let scene = structured::scene(&mut rng, kind, 30);
-            let options = rng.pick(&choices(&scene));
-            let places = places(&mut rng, &scene, 6);
-            check(&scene, &options, &places, "structured");
-        }
-    }
-}
-
-#[test]
-fn surfaces_answer_as_with_the_point_added() {
-    let mut rng = Rng::new(7);
-    let kinds: [fn(&mut Rng, usize) -> shapes::Points; 4] =
-        [shapes::bumpy, shapes::room, shapes::ball, shapes::sphere];
-    for shape in kinds {
-        for viewpoint in [[0.1, 0.2, 0.05], [2.5, 1.0, 3.0]] {
-            let scene = Scene {
-                points: shape(&mut rng, 1000),
-                viewpoint,
-                options: Options::default(),
-            };
-            for options in [
-                Options::default(),
-                Options::with_inversion(Inversion::Exponential(Exponential::Auto)),
-                Options::with_exponent(2.0),
-            ] {
-                let places = places(&mut rng, &scene, 12);
-                check(&scene, &options, &places, "a surface");
-            }
-        }
-    }
-}
-
-#[test]
-fn looks_neighbors_and_searches_count_the_point() {
-    let mut rng = Rng::new(8);
-    let scene = Scene {
-        points: shapes::bumpy(&mut rng, 150),
-        viewpoint: [0.2, 0.4, 2.0],
-        options: Options::default(),
-    };
-    let noise = Options::default().denoise(4).vote(5);
-    for options in [
-        Options::with_inversion(Inversion::Looks(2)),
-        Options::with_inversion(Inversion::Looks(3)),
-        noise,
-        Options::default().radius(Radius::Search),
-        Options::default().radius(Radius::Opposite),
-    ] {
-        let places = places(&mut rng, &scene, 6);
-        check(&scene, &options, &places, "needs others");
-    }
-}
 
 #[test]
 fn single_precision_and_changed_clouds_answer_as_with_the_point_added() {
@@ -109,32 +33,6 @@ fn single_precision_and_changed_clouds_answer_as_with_the_point_added() {
         let widened = single.map(f64::from);
         let expected = by_definition(&scene.points, widened, scene.viewpoint, &options);
         assert_eq!(Ok(found[0]), expected, "{single:?}");
-    }
-}
-
-#[test]
-fn positions_outside_of_a_choice_are_not_seen() {
-    let mut rng = Rng::new(10);
-    let points = shapes::bumpy(&mut rng, 300);
-    let cloud = PointCloud::new(&points).unwrap();
-    let viewpoint = [0.2, 0.4, 2.0];
-    let within = Within {
-        distance: Some(2.0),
-        bounds: Some([[-1.0, -1.0, 0.0], [1.0, 0.6, 5.0]]),
-    };
-    for options in [Options::default(), Options::with_radius(2.0)] {
-        let options = options.within(within);
-        let scene = Scene {
-            points: points.clone(),
-            viewpoint,
-            options,
-        };
-        let places = places(&mut rng, &scene, 80);
-        let found = cloud.sees(viewpoint, &places, &options).unwrap();
-        for (&place, found) in places.iter().zip(found) {
-            let expected = by_definition(&points, place, viewpoint, &options);
-            assert_eq!(Ok(found), expected, "{place:?}");
-        }
     }
 }
 

@@ -3,44 +3,10 @@
 
 use hidden_point_removal::{Error, Exponential, Inversion, Options, PointCloud, share_visible};
 
-use crate::common::parts::{Asked, Place, box_of, compare, compare_both, octant};
+use crate::common::parts::{Asked, Place, box_of, compare, octant};
 use crate::common::rng::Rng;
-use crate::common::scenes::{EXTREME, KINDS, Scene};
-use crate::common::{shapes, structured};
-
-#[test]
-fn sectors_of_every_kind_of_scene_give_the_answer_of_the_whole() {
-    let mut rng = Rng::new(1);
-    for kind in KINDS {
-        for (seed, n) in [(1, 0), (2, 9), (3, 30), (4, 200), (5, 900)] {
-            let title = format!("{} with seed {seed}", kind.name);
-            compare_both(&mut rng, kind.scene(seed, n), &title);
-        }
-    }
-}
-
-#[test]
-fn extreme_numbers_are_answered_too() {
-    let mut rng = Rng::new(2);
-    for kind in EXTREME {
-        for seed in 1..4 {
-            let title = format!("{} with seed {seed}", kind.name);
-            compare_both(&mut rng, kind.scene(seed, 150), &title);
-        }
-    }
-}
-
-#[test]
-fn viewpoints_in_planes_and_on_lines_of_points_are_answered_too() {
-    let mut rng = Rng::new(3);
-    for &(kind, shape) in structured::SHAPES {
-        for n in [40, 300, 1200] {
-            let scene = structured::scene(&mut rng, (kind, shape), n);
-            let title = format!("{kind}, {n} points, {:?}", scene.options);
-            compare_both(&mut rng, scene, &title);
-        }
-    }
-}
+use crate::common::scenes::Scene;
+use crate::common::shapes;
 
 /// The sectors of a surface need few points of other sectors, in few rounds.
 #[test]

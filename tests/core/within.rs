@@ -7,58 +7,9 @@ use hidden_point_removal::{
 };
 
 use crate::common::NOWHERE;
-use crate::common::chosen::{alone, chosen, facts, only, some_choice};
+use crate::common::chosen::{alone, chosen, facts, only};
 use crate::common::rng::Rng;
-use crate::common::scenes::{EXTREME, KINDS};
 use crate::common::shapes;
-
-#[test]
-fn scenes_of_every_kind_answer_as_the_chosen_points_alone() {
-    for (number, kind) in KINDS.iter().chain(EXTREME).enumerate() {
-        for (seed, n) in [0, 1, 2, 5, 40, 300].into_iter().enumerate() {
-            let scene = kind.scene((10 * number + seed) as u64, n);
-            let mut rng = Rng::new((100 * number + seed) as u64);
-            for _ in 0..4 {
-                let within = some_choice(&mut rng, &scene);
-                let indices = chosen(&scene.points, &within, Some(scene.viewpoint));
-                let expected = alone(&scene.points, &indices);
-                let mut cloud = PointCloud::new(&scene.points).unwrap();
-                let options = only(within, &scene.options);
-                let name = kind.name;
-                for prepared in [false, true] {
-                    if prepared {
-                        cloud.prepare_for(&options).unwrap();
-                    }
-                    assert_eq!(
-                        facts(cloud.visible_from(scene.viewpoint, &options), None),
-                        facts(
-                            expected.visible_from(scene.viewpoint, &scene.options),
-                            Some(&indices)
-                        ),
-                        "{name}, {n} points, {within:?}"
-                    );
-                }
-                let mut mask = vec![false; n];
-                indices.iter().for_each(|&i| mask[i as usize] = true);
-                mask.resize(scene.points.len(), false);
-                assert_eq!(
-                    facts(
-                        cloud
-                            .masked(&mask)
-                            .unwrap()
-                            .visible_from(scene.viewpoint, &scene.options),
-                        None
-                    ),
-                    facts(
-                        expected.visible_from(scene.viewpoint, &scene.options),
-                        Some(&indices)
-                    ),
-                    "{name}, {n} points, masked"
-                );
-            }
-        }
-    }
-}
 
 #[test]
 fn every_question_follows_a_choice() {

@@ -12,13 +12,12 @@ use hidden_point_removal::{Error, MapOptions, Options, PointCloud};
 mod common;
 #[allow(dead_code)]
 mod run;
-mod subject;
 
 use common::rng::Rng;
 use common::shapes::{self, Points};
 use common::walk::Walk;
+use common::walked::{inversion, subject};
 use run::Run;
-use subject::{inversion, subject};
 
 /// The number of views of one cloud, and of maps of one view.
 const WALK: usize = 6;

@@ -1,4 +1,4 @@
-//! Shared by all fuzzers: the arguments, the tallies, and the code that repeats a wrong answer.
+//! The arguments, the tallies, and the code that repeats a wrong answer.
 
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -103,7 +103,7 @@ pub fn literal(scene: &Scene) -> String {
     )
 }
 
-pub fn options_literal(options: &Options) -> String {
+fn options_literal(options: &Options) -> String {
     let inversion = match options.inversion {
         Inversion::Exponential(scale) => format!("Exponential(Exponential::{scale:?})"),
         other => format!("{other:?}"),

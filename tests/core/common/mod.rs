@@ -27,6 +27,7 @@ pub mod sectors;
 pub mod shapes;
 pub mod structured;
 pub mod walk;
+pub mod walked;
 
 /// No viewpoints.
 pub const NOWHERE: [[f64; 3]; 0] = [];

@@ -382,14 +382,6 @@ pub fn scene(rng: &mut Rng, (name, shape): (&str, Shape), n: usize) -> Scene {
     }
 }
 
-/// Moves to another view of the same points, unless the points are aimed for this view.
-pub fn move_on(rng: &mut Rng, name: &str, scene: &mut Scene) {
-    if !is_aimed(name) {
-        scene.viewpoint = viewpoint(rng, &scene.points);
-        scene.options = options(rng, &scene.points, scene.viewpoint);
-    }
-}
-
 fn is_aimed(name: &str) -> bool {
     name.ends_with("after the flip")
 }

@@ -1,48 +1,61 @@
-//! One file for each kind of question. Each asks a scene in a way that depends only on the random numbers.
-//! `tests/core/queries.rs` runs a short form.
+//! Promises that hold for every scene. Each check asks a scene in a way that depends only on the random numbers.
+//! The core's tests try some scenes of each (`crate::short`), the fuzzer `fuzz_core` tries new ones.
 
 use hidden_point_removal::{Exponential, Inversion, Options};
 
-use super::common::chosen::{only, some_choice};
-use super::common::degenerate::DEGENERATE;
-use super::common::rng::Rng;
-use super::common::scenes::{EXTREME, KINDS, Scene};
-use super::common::structured;
+use crate::common::chosen::{only, some_choice};
+use crate::common::degenerate::DEGENERATE;
+use crate::common::rng::Rng;
+use crate::common::scenes::{EXTREME, KINDS, Scene};
+use crate::common::structured;
 
+mod aspects;
+pub mod boxes;
 mod camera;
 mod coverage;
-mod looks;
-mod outsiders;
+mod dimensions;
+mod drafts;
+mod invariance;
+mod oracle;
 mod parts;
+mod sectors;
+mod sees;
+mod threads;
 mod within;
 
-pub struct Query {
+pub struct Check {
     pub name: &'static str,
-    /// The number of points that the largest clouds have, or a few more.
-    pub most: usize,
+    /// A scene, and the name of its kind.
+    pub subject: fn(&mut Rng) -> (&'static str, Scene),
     /// Panics or returns an error if an answer is wrong.
-    pub check: fn(&Scene, &mut Rng) -> Result<(), String>,
+    pub ask: fn(&Scene, &mut Rng) -> Result<(), String>,
 }
 
-pub const QUERIES: [Query; 6] = [
-    query("camera", 2500, camera::check),
-    query("sees", 1200, outsiders::check),
-    query("within", 1200, within::check),
-    query("coverage", 400, coverage::check),
-    query("looks", 2500, looks::check),
-    query("parts", 1200, parts::check),
+pub const CHECKS: [Check; 12] = [
+    check("oracle", oracle::subject, oracle::check),
+    check("sectors", |rng| subject(rng, 2500), sectors::check),
+    check("drafts", drafts::subject, drafts::check),
+    check("boxes", boxes::subject, boxes::check),
+    check("dimensions", dimensions::subject, dimensions::check),
+    check("camera", |rng| subject(rng, 2500), camera::check),
+    check("sees", |rng| subject(rng, 1200), sees::check),
+    check("within", |rng| subject(rng, 1200), within::check),
+    check("coverage", |rng| subject(rng, 400), coverage::check),
+    check("invariance", |rng| subject(rng, 2500), invariance::check),
+    check("parts", |rng| subject(rng, 1200), parts::check),
+    check("threads", |rng| subject(rng, 9000), threads::check),
 ];
 
-const fn query(
+const fn check(
     name: &'static str,
-    most: usize,
-    check: fn(&Scene, &mut Rng) -> Result<(), String>,
-) -> Query {
-    Query { name, most, check }
+    subject: fn(&mut Rng) -> (&'static str, Scene),
+    ask: fn(&Scene, &mut Rng) -> Result<(), String>,
+) -> Check {
+    Check { name, subject, ask }
 }
 
 /// A cloud of at most about `most` points, with a viewpoint and options. Most clouds are small.
-pub fn subject(rng: &mut Rng, most: usize) -> (&'static str, Scene) {
+fn subject(rng: &mut Rng, most: usize) -> (&'static str, Scene) {
     let n = match rng.below(10) {
         0..4 => rng.below(13),
         4..9 => 12 + rng.below(100),

@@ -1,22 +1,12 @@
-//! Boxes that a horizon hides, compared with 1,000 points of each box:
-//! `cargo run --profile fuzz --package hpr-tests --bin fuzz_boxes -- --minutes 5 [--seed N]`
-//!
-//! A box that is proved hidden must hold no point that the horizon does not hide. Of the boxes of
-//! which all points are hidden, nine in ten must be proved. `run` explains the output.
-
-use std::collections::BTreeMap;
+//! Boxes that a horizon hides, compared with 1,000 points of each box: a box that is proved hidden must hold no point
+//! that the horizon does not hide.
 
 use hidden_point_removal::{Exponential, Horizon, Inversion, Options};
 
-#[path = "../core/common/mod.rs"]
-mod common;
-#[allow(dead_code)]
-mod run;
-
-use common::flip::farthest;
-use common::rng::Rng;
-use common::{shapes, structured};
-use run::Run;
+use crate::common::flip::farthest;
+use crate::common::rng::Rng;
+use crate::common::scenes::Scene;
+use crate::common::{shapes, structured};
 
 /// The number of boxes for each horizon.
 const BOXES: usize = 60;
@@ -28,61 +18,48 @@ const BEYOND: f64 = 4.0;
 type Place = [f64; 3];
 type Block = (Place, Place);
 
-fn main() {
-    let mut run = Run::start();
-    // For each kind of box: how many are hidden by all samples, and how many of them are proved.
-    let mut shares: BTreeMap<&str, [u64; 2]> = BTreeMap::new();
-    while run.goes_on() {
-        let (name, points, viewpoint) = scene(&mut run.rng);
-        let reach = BEYOND * farthest(&points, viewpoint);
-        if !(1e-100..1e100).contains(&reach) {
-            continue;
-        }
-        let options = options(&mut run.rng, reach);
-        let mut horizon = Horizon::new(viewpoint, &options).expect("options with numbers");
-        horizon.add(&points).expect("points within reach");
-        for _ in 0..BOXES {
-            let (kind, (min, max)) = draw(&mut run.rng, &points, viewpoint);
-            let proved = horizon.hides_box(min, max).expect("a box");
-            let Some(seen) = first_seen(&mut run.rng, &horizon, (min, max), viewpoint) else {
-                continue;
-            };
-            let [hidden, of_them_proved] = shares.entry(kind).or_default();
-            *hidden += u64::from(seen.is_none());
-            *of_them_proved += u64::from(seen.is_none() && proved);
-            match seen {
-                Some(point) if proved => {
-                    if run.count_wrong(kind) {
-                        println!(
-                            "{name}: {min:?} to {max:?} is not hidden at {point:?}\n\
-                             from {viewpoint:?}, {options:?}, points {points:?}"
-                        );
-                    }
-                }
-                _ => run.count(kind, 1),
+pub fn check(scene: &Scene, rng: &mut Rng) -> Result<(), String> {
+    tally(scene, rng).map(|_| ())
+}
+
+/// How many boxes are hidden by all samples, and how many of them are proved.
+pub fn tally(scene: &Scene, rng: &mut Rng) -> Result<[u64; 2], String> {
+    let Scene {
+        points, viewpoint, ..
+    } = scene;
+    let reach = BEYOND * farthest(points, *viewpoint);
+    let mut shares = [0; 2];
+    if !(1e-100..1e100).contains(&reach) {
+        return Ok(shares);
+    }
+    let options = options(rng, reach);
+    let mut horizon = Horizon::new(*viewpoint, &options).expect("options with numbers");
+    horizon.add(points).expect("points within reach");
+    for _ in 0..BOXES {
+        let (kind, (min, max)) = draw(rng, points, *viewpoint);
+        let proved = horizon.hides_box(min, max).expect("a box");
+        match first_seen(rng, &horizon, (min, max), *viewpoint) {
+            Some(Some(point)) if proved => {
+                return Err(format!(
+                    "{kind}: {min:?} to {max:?} is not hidden at {point:?} with {options:?}"
+                ));
             }
+            Some(None) => {
+                shares[0] += 1;
+                shares[1] += u64::from(proved);
+            }
+            _ => {}
         }
     }
-    let mut all = [0, 0];
-    for (kind, [hidden, proved]) in &shares {
-        println!("{kind}: {proved} of {hidden} hidden boxes are proved");
-        all = [all[0] + hidden, all[1] + proved];
-    }
-    let [hidden, proved] = all;
-    println!("together: {proved} of {hidden} hidden boxes are proved");
-    if hidden > 1000 && 10 * proved < 9 * hidden && run.count_wrong("share of proofs") {
-        println!("too few boxes are proved");
-    }
-    run.finish();
+    Ok(shares)
 }
 
 /// A cloud and a viewpoint.
-fn scene(rng: &mut Rng) -> (&'static str, Vec<Place>, Place) {
+pub fn subject(rng: &mut Rng) -> (&'static str, Scene) {
     if rng.chance(4) {
         let kind = rng.pick(structured::SHAPES);
         let n = 20 + rng.below(2000);
-        let scene = structured::scene(rng, kind, n);
-        return (kind.0, scene.points, scene.viewpoint);
+        return (kind.0, structured::scene(rng, kind, n));
     }
     type Shape = fn(&mut Rng, usize) -> Vec<Place>;
     let all: [(&str, Shape); 5] = [
@@ -108,7 +85,12 @@ fn scene(rng: &mut Rng) -> (&'static str, Vec<Place>, Place) {
         2 => rng.direction().map(|x| 8.0 * x),
         _ => rng.in_ball().map(|x| 3.0 * x),
     };
-    (name, points, viewpoint)
+    let scene = Scene {
+        points,
+        viewpoint,
+        options: Options::default(),
+    };
+    (name, scene)
 }
 
 fn wall(rng: &mut Rng, n: usize) -> Vec<Place> {

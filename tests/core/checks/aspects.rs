@@ -5,10 +5,10 @@ use hidden_point_removal::{
     Exponential, Inversion, Options, PointCloud, PointCloud2d, Radius, Visibility, merge_visible,
 };
 
-use super::common::flip::flip_as;
-use super::common::rng::Rng;
-use super::common::scenes::Scene;
-use super::common::{definition, indices_of, lower, sectors};
+use crate::common::flip::flip_as;
+use crate::common::rng::Rng;
+use crate::common::scenes::Scene;
+use crate::common::{definition, indices_of, lower, sectors};
 
 #[derive(Clone, Copy, Debug)]
 pub enum Aspect {

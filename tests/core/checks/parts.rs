@@ -1,8 +1,8 @@
 //! Sectors of a cloud in parts: together they see the whole cloud's visible points.
 
-use super::super::common::parts::compare_both;
-use super::super::common::rng::Rng;
-use super::super::common::scenes::Scene;
+use crate::common::parts::compare_both;
+use crate::common::rng::Rng;
+use crate::common::scenes::Scene;
 use hidden_point_removal::PointCloud;
 
 pub fn check(scene: &Scene, rng: &mut Rng) -> Result<(), String> {

@@ -2,11 +2,11 @@
 
 use hidden_point_removal::{Options, PointCloud, Sector, Within};
 
-use super::super::common::chosen::{alone, chosen, facts, only, some_choice};
-use super::super::common::cloud_of;
-use super::super::common::rng::Rng;
-use super::super::common::scenes::Scene;
 use super::{options, same};
+use crate::common::chosen::{alone, chosen, facts, only, some_choice};
+use crate::common::cloud_of;
+use crate::common::rng::Rng;
+use crate::common::scenes::Scene;
 
 pub fn check(scene: &Scene, rng: &mut Rng) -> Result<(), String> {
     let Scene {

@@ -2,10 +2,10 @@
 
 use hidden_point_removal::{Inversion, Radius};
 
-use super::super::common::added::{check as compare, places};
-use super::super::common::rng::Rng;
-use super::super::common::scenes::Scene;
 use super::options;
+use crate::common::added::{check as compare, places};
+use crate::common::rng::Rng;
+use crate::common::scenes::Scene;
 
 pub fn check(scene: &Scene, rng: &mut Rng) -> Result<(), String> {
     let mut options = options(scene, rng);

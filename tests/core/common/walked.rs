@@ -1,10 +1,10 @@
-//! The clouds, viewpoints and inversions of fuzzers that walk.
+//! Clouds, viewpoints and inversions of walks.
 
 use hidden_point_removal::{Exponential, Inversion};
 
-use super::common::rng::Rng;
-use super::common::scenes::KINDS;
-use super::common::shapes::{self, Points};
+use super::rng::Rng;
+use super::scenes::KINDS;
+use super::shapes::{self, Points};
 
 /// A cloud and a viewpoint. The cloud is mostly large enough for a map of directions.
 pub fn subject(rng: &mut Rng) -> (&'static str, Points, [f64; 3]) {

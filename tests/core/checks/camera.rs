@@ -2,11 +2,11 @@
 
 use hidden_point_removal::{Camera, Convention};
 
-use super::super::common::cameras::{LENSES, along_axes, camera, in_camera, shown};
-use super::super::common::cloud_of;
-use super::super::common::rng::Rng;
-use super::super::common::scenes::Scene;
 use super::{options, same};
+use crate::common::cameras::{LENSES, along_axes, camera, in_camera, shown};
+use crate::common::cloud_of;
+use crate::common::rng::Rng;
+use crate::common::scenes::Scene;
 
 pub fn check(scene: &Scene, rng: &mut Rng) -> Result<(), String> {
     let cloud = cloud_of(&scene.points, rng.chance(2));

@@ -2,12 +2,12 @@
 
 use hidden_point_removal::{Placing, PointCloud};
 
-use super::super::common::cloud_of;
-use super::super::common::placing::{best, eager, masks};
-use super::super::common::rng::Rng;
-use super::super::common::scenes::Scene;
-use super::super::common::structured;
 use super::{options, same};
+use crate::common::cloud_of;
+use crate::common::placing::{best, eager, masks};
+use crate::common::rng::Rng;
+use crate::common::scenes::Scene;
+use crate::common::structured;
 
 pub fn check(scene: &Scene, rng: &mut Rng) -> Result<(), String> {
     let cloud = cloud_of(&scene.points, rng.chance(2));

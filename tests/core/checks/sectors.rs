@@ -1,0 +1,25 @@
+//! Divided views compared with whole views: viewpoints in planes and lines of points, 2 to 64 sectors.
+
+use crate::common::rng::Rng;
+use crate::common::scenes::Scene;
+use crate::common::{cloud_of, sectors, structured};
+
+/// The number of viewpoints for each cloud.
+const VIEWS: usize = 6;
+
+pub fn check(scene: &Scene, rng: &mut Rng) -> Result<(), String> {
+    let cloud = cloud_of(&scene.points, rng.chance(2));
+    let (mut viewpoint, mut options) = (scene.viewpoint, scene.options);
+    for _ in 0..VIEWS {
+        let count = match rng.below(16) {
+            0..7 => 2,
+            7..15 => 3 + rng.below(5) as u32,
+            _ => 8 + rng.below(57) as u32,
+        };
+        sectors::compare(&cloud, viewpoint, &options, count)
+            .map_err(|wrong| format!("from {viewpoint:?} with {options:?}: {wrong}"))?;
+        viewpoint = structured::viewpoint(rng, &scene.points);
+        options = structured::options(rng, &scene.points, viewpoint);
+    }
+    Ok(())
+}

@@ -1,0 +1,43 @@
+//! The short form of the fuzzer `fuzz_core`, with the same scenes every time.
+
+use crate::checks::CHECKS;
+use crate::common::rng::Rng;
+
+/// Asks so many scenes of a check.
+fn ask(name: &str, scenes: u64) {
+    let check = CHECKS
+        .iter()
+        .find(|check| check.name == name)
+        .expect("a check");
+    for seed in 0..scenes {
+        let (kind, scene) = (check.subject)(&mut Rng::new(seed));
+        let wrong = (check.ask)(&scene, &mut Rng::new(seed + 1_000_000)).err();
+        assert_eq!(wrong, None, "{name}, {kind}, seed {seed}");
+    }
+}
+
+macro_rules! short {
+    ($($name:ident $scenes:literal;)*) => {
+        $(#[test] fn $name() { ask(stringify!($name), $scenes); })*
+
+        #[test]
+        fn no_check_is_left_out() {
+            assert_eq!(CHECKS.map(|check| check.name), [$(stringify!($name)),*]);
+        }
+    };
+}
+
+short! {
+    oracle 20_000;
+    sectors 300;
+    drafts 30;
+    boxes 20;
+    dimensions 300;
+    camera 100;
+    sees 100;
+    within 100;
+    coverage 60;
+    invariance 300;
+    parts 100;
+    threads 100;
+}
