@@ -50,25 +50,6 @@ describe("a cloud after append() and remove()", () => {
     }
   });
 
-  it("reads appended points as the constructor does", () => {
-    const points = sphere.subarray(0, 300);
-    const padded = Float32Array.from({ length: 400 }, (_, i) =>
-      i % 4 === 3 ? NaN : points[Math.floor(i / 4) * 3 + (i % 4)]!,
-    );
-    const cloud = new PointCloud(padded.subarray(0, 200), { stride: 4 });
-    cloud.append(padded.subarray(200));
-    expectAsFresh(
-      cloud,
-      points,
-      Array.from({ length: 100 }, (_, i) => i),
-    );
-
-    const skipping = new PointCloud([NaN, 0, 0, 0, 0, 1], { nonFinite: "skip" });
-    skipping.append([0, 0, 2, 0, Infinity, 0]);
-    expect([skipping.length, skipping.skipped]).toEqual([4, 2]);
-    expect([...skipping.visibleFrom([0, 0, 5]).mask()]).toEqual([0, 0, 1, 0]);
-  });
-
   it("takes indices in any list of integers, and accepts the indices of removed points again", () => {
     const cloud = new PointCloud([0, 0, 1, 0, 0, 2, 0, 0, 3, 0, 0, 4, 1, 1, 1]);
     const seen = () => [...cloud.visibleFrom([0, 0, 5]).indices];

@@ -86,15 +86,6 @@ describe("a cloud in the plane", () => {
     expect(plane.autoRadius(from, "search")).toEqual(space.autoRadius([...from, 0], "search"));
     expect(hiddenPointRemoval(flat, from, { dimension: 2 })).toEqual(plane.visibleFrom(from));
   });
-
-  it("is changed, skips, and is read with a stride, as in space", () => {
-    const cloud = new PointCloud([0, 1, 9, NaN, 0, 9], { dimension: 2, stride: 3, nonFinite: "skip" });
-    expect([cloud.length, cloud.skipped]).toEqual([2, 1]);
-    cloud.append(Float32Array.of(0, 2, 9));
-    expect([...cloud.visibleFrom([0, 5]).indices]).toEqual([2]);
-    cloud.remove([2]);
-    expect([...cloud.visibleFrom([0, 5]).indices]).toEqual([0]);
-  });
 });
 
 describe("a cloud of more dimensions", () => {
@@ -118,32 +109,6 @@ describe("a cloud of more dimensions", () => {
         expect(indices.length).toBeLessThan(300);
       }
     }
-  });
-
-  it("hides the farther of two points on one ray; union, rules and changes as in space", () => {
-    const cloud = new PointCloud([0, 0, 0, 1, 0, 0, 0, 2], { dimension: 4 });
-    const [front, back] = [
-      [0, 0, 0, 5],
-      [0, 0, 0, -5],
-    ];
-    expect([...cloud.visibleFrom(front).indices]).toEqual([1]);
-    expect([...cloud.visibleFromAny([front, back]).indices]).toEqual([0, 1]);
-    expect([...cloud.visibleFromAtLeast(2, [front, back]).indices]).toEqual([]);
-    expect(cloud.visibleFromAny([])).toMatchObject({ count: 0, radius: 0 });
-    expect(cloud.visibleFrom(front, { inversion: { exponential: 0.5 } })).toMatchObject({
-      count: 1,
-      inversion: { exponential: 0.5 },
-    });
-    expect(cloud.autoRadius(front).radius).toBe(cloud.visibleFrom(front).radius);
-    expect(cloud.autoRadius(front, "search").evaluations).toBe(
-      cloud.visibleFrom(front, { radius: "search" }).evaluations,
-    );
-    cloud.append([0, 0, 0, 3, 1, 0, 0, 0]);
-    expect(cloud).toHaveLength(4);
-    cloud.remove([2]);
-    expect([...cloud.visibleFrom(front).indices]).toEqual([1, 3]);
-    expect(cloud.visibleFrom(front).mask()).toEqual(Uint8Array.of(0, 1, 0, 1));
-    cloud.dispose();
   });
 });
 

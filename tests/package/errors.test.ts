@@ -209,55 +209,6 @@ describe("messages of the core", () => {
   });
 });
 
-describe("lists of no viewpoints", () => {
-  const [space, hyper] = [new PointCloud(sphere), new PointCloud(sphere.subarray(0, 400), { dimension: 4 })];
-  const refused: [options: object, inHyperspace: boolean][] = [
-    [{ radius: 0 }, true],
-    [{ radius: NaN }, true],
-    [{ radius: 1.7e308 }, true],
-    [{ exponent: -1 }, true],
-    [{ exponent: Infinity }, true],
-    [{ inversion: { power: 17 } }, true],
-    [{ inversion: { power: 2 }, radius: -1 }, true],
-    [{ inversion: { power: 2 }, radius: "search" }, true],
-    [{ inversion: { exponential: 0 } }, true],
-    [{ inversion: { exponential: 1 }, exponent: 2 }, true],
-    [{ denoise: 500 }, false],
-    [{ vote: 500 }, false],
-    [{ vote: 70_000 }, false],
-  ];
-  it.each(refused)("are refused as one viewpoint is: %o", async (options, inHyperspace) => {
-    const one = await problemOf(() => space.visibleFrom([0, 0, 0], options));
-    expect(one).toBeInstanceOf(HprError);
-    const [any, lit] = [
-      await problemOf(() => space.visibleFromAny([], options)),
-      await problemOf(() => space.illuminate([], options)),
-    ];
-    const said = ({ code, message }: { code?: string; message: string }) => [
-      code,
-      message.replace(/\(the farthest distance is .*\)/, ""),
-    ];
-    expect([said(any), said(lit)]).toEqual([said(one), said(one)]);
-    if (inHyperspace) {
-      const alone = await problemOf(() => hyper.visibleFrom([0, 0, 0, 0], options));
-      expect(said(await problemOf(() => hyper.visibleFromAny([], options)))).toEqual(said(alone));
-    }
-  });
-
-  it("are answered with what one viewpoint is answered with", () => {
-    for (const options of [
-      { radius: 1e-9 },
-      { exponent: 0 },
-      { inversion: { power: 2 } },
-      { denoise: 6, vote: 6 },
-      { radius: "search" as const },
-    ]) {
-      expect(space.visibleFromAny([], options).count).toBe(0);
-      expect(space.illuminate([], options)).toEqual(new Float32Array(500));
-    }
-  });
-});
-
 describe("disposed", () => {
   it("answers every later call, and may be disposed of twice", async () => {
     const cloud = new PointCloud(sphere);

@@ -50,26 +50,6 @@ describe("a horizon", () => {
     expect([...listed]).toEqual(alone);
   });
 
-  it("keeps only its visible points, which hide as much", () => {
-    const horizon = new Horizon(viewpoint, options);
-    horizon.add(sphere.subarray(0, 3000));
-    const points = horizon.visible();
-    expect(points.length).toBeLessThan(2000);
-    const copy = new Horizon(viewpoint, options);
-    copy.add(points);
-    expect(copy.visible()).toEqual(points);
-    expect(copy.screen(sphere)).toEqual(horizon.screen(sphere));
-  });
-
-  it("proves boxes hidden, also such as hold no point", () => {
-    const horizon = new Horizon(viewpoint, options);
-    expect(horizon.hidesBox([-0.2, -0.2, -3], [0.2, 0.2, -2])).toBe(false);
-    horizon.add(sphere);
-    expect(horizon.hidesBox([-0.2, -0.2, -3], [0.2, 0.2, -2])).toBe(true);
-    expect(horizon.hidesBox([-0.2, -0.2, 2], [0.2, 0.2, 3])).toBe(false);
-    expect(horizon.hidesBox([-9, -9, -9], [9, 9, 9])).toBe(false);
-  });
-
   it("refuses bad input with a code, and stays as it was", () => {
     const horizon = new Horizon(viewpoint, options);
     horizon.add(sphere);

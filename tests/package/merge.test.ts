@@ -66,16 +66,6 @@ describe("parts that were seen with one radius", () => {
     const whole = { positions: Int16Array.of(0, 0, 1, 5, 5, 5), ids: Uint32Array.of(1, 3) };
     expect(mergeVisible([whole, double], farAway, { radius: 100 })).toEqual(Uint32Array.of(2, 3));
   });
-
-  it("share the answer of equal points, and give an id once", () => {
-    const parts = [
-      { positions: [0, 0, 1, 0, 0, 0], ids: Uint32Array.of(9, 8) },
-      { positions: Float32Array.of(0, 0, 1, 0, 0, 1, 0, 0, 0), ids: Uint32Array.of(2 ** 32 - 1, 9, 1) },
-      { positions: new Float64Array(0), ids: new Uint32Array(0) },
-    ];
-    expect(mergeVisible(parts, farAway, { radius: 100 })).toEqual(Uint32Array.of(9, 2 ** 32 - 1));
-    expect(mergeVisible([], farAway, { radius: 100 })).toEqual(new Uint32Array(0));
-  });
 });
 
 describe("refusals", () => {

@@ -69,33 +69,6 @@ describe("a reconstruction", () => {
     expect(usual).toHaveLength(triangles.filter((corners) => longest(corners) <= 5 * spacing).length);
     expect(usual.length).toBeLessThan(triangles.length);
   });
-
-  it("takes the options of a view", () => {
-    for (const options of [
-      { exponent: 3 },
-      { radius: "search" },
-      { inversion: { power: 1.5 } },
-      { vote: 6 },
-      { denoise: 8 },
-    ] as const) {
-      const mesh = cloud.reconstruct(viewpoint, options);
-      expect(mesh.indices).toEqual(cloud.visibleFrom(viewpoint, options).indices);
-      const visible = mesh.mask();
-      expect(mesh.triangles.length).toBeGreaterThan(300);
-      expect(mesh.triangles.every((index) => visible[index] === 1)).toBe(true);
-    }
-  });
-
-  it("names the lowest of equal points", () => {
-    const twice = new PointCloud([0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0]);
-    expect([...twice.reconstruct([0.2, 0.2, 5], { maxEdge: Infinity }).triangles]).toEqual([0, 1, 2]);
-    expect([...twice.reconstruct([0.2, 0.2, -5], { maxEdge: Infinity }).triangles]).toEqual([0, 2, 1]);
-  });
-
-  it("is empty if nothing is visible", () => {
-    expect(new PointCloud([]).reconstruct(viewpoint)).toMatchObject({ count: 0, triangles: new Uint32Array(0) });
-    expect(new PointCloud([1, 2, 3]).reconstruct(viewpoint).triangles).toHaveLength(0);
-  });
 });
 
 describe("light", () => {
@@ -113,56 +86,6 @@ describe("light", () => {
       });
     }
     expect(cloud.illuminate(lights, { smoothing: 0 })).toEqual(cloud.illuminate(lights, { smoothing: 0, ambient: 0 }));
-  });
-
-  it("is ambient everywhere without lights", () => {
-    expect(cloud.illuminate([], { ambient: 0.5 })).toEqual(new Float32Array(cloud.length).fill(0.5));
-    expect(cloud.illuminate([])).toEqual(new Float32Array(cloud.length));
-    expect(new PointCloud([]).illuminate(lights)).toHaveLength(0);
-  });
-
-  it("does not reach points that were skipped or removed", () => {
-    const gone = new PointCloud([0, 0, 1, NaN, 0, 0, 1, 0, 0], { nonFinite: "skip" });
-    gone.remove([2]);
-    expect([...gone.illuminate([[0, 0, 5]], { smoothing: 0, ambient: 0.25 })]).toEqual([1, 0.25, 0.25]);
-  });
-
-  it("is softened by means over a mesh", () => {
-    // Points 0 to 3 form a strip of two triangles. Point 3 is in the second triangle only. Point 4 is in none.
-    const strip = new PointCloud([0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 0, -1]);
-    const triangles = Uint32Array.of(0, 1, 2, 1, 3, 2);
-    const light = [[0, 0, 5]];
-    const hard = [...strip.illuminate(light, { smoothing: 0 })];
-    expect(hard).toEqual([1, 1, 1, 1, 0]);
-    const others = [[1, 2], [0, 2, 3], [0, 1, 3], [1, 2], []];
-    const lit = new PointCloud([0, 0, 0, 0, 0, -1, 0, 1, 0, 1, 1, 0, 5, 5, 0]);
-    let expected = [...lit.illuminate(light, { smoothing: 0 })];
-    expect(new Set(expected)).toEqual(new Set([0, 1]));
-    for (const smoothing of [1, 2, 3]) {
-      expected = expected.map(
-        (own, i) => (own + others[i]!.reduce((sum, j) => sum + expected[j]!, 0)) / (others[i]!.length + 1),
-      );
-      const soft = lit.illuminate(light, { smoothing, triangles });
-      soft.forEach((value, i) => {
-        expect(value).toBeCloseTo(expected[i]!, 6);
-      });
-    }
-    expect(lit.illuminate(light, { triangles })).toEqual(lit.illuminate(light, { smoothing: 1, triangles }));
-    expect(triangles).toEqual(Uint32Array.of(0, 1, 2, 1, 3, 2));
-  });
-
-  it("is softened over the 6 nearest points if there is no mesh, by default once", () => {
-    const hard = cloud.illuminate(lights, { smoothing: 0 });
-    const soft = cloud.illuminate(lights);
-    for (const i of [0, 100, 777, 1838]) {
-      const distance = (j: number) => Math.hypot(...minus(at(i), at(j)));
-      const nearest = [...hard.keys()]
-        .filter((j) => j !== i)
-        .sort((a, b) => distance(a) - distance(b))
-        .slice(0, 6);
-      expect(soft[i]).toBeCloseTo([i, ...nearest].reduce((sum, j) => sum + hard[j]!, 0) / 7, 5);
-    }
-    expect(cloud.illuminate(lights, { smoothing: 1 })).toEqual(soft);
   });
 
   it("has soft shadows under an area light, which is a ring of lights", () => {
@@ -185,18 +108,6 @@ describe("light", () => {
     expect(blurred).toEqual([...blurred].sort((a, b) => a - b));
     expect(blurred.filter((value) => value > 0 && value < 1).length).toBeGreaterThanOrEqual(2);
     scene.dispose();
-  });
-
-  it("takes the options of a view", () => {
-    for (const options of [
-      { exponent: 2.5 },
-      { inversion: { exponential: "auto" } },
-      { vote: 6 },
-      { denoise: 6 },
-    ] as const) {
-      const brightness = cloud.illuminate([viewpoint], { ...options, smoothing: 0 });
-      expect([...brightness]).toEqual([...cloud.visibleFrom(viewpoint, options).mask()]);
-    }
   });
 });
 

@@ -3,7 +3,7 @@ import { expect, it } from "vitest";
 import type { VisibilityOptions } from "hidden-point-removal";
 import { bumpySphere, randomNumbers, readyPackage } from "./support";
 
-const { PointCloud, WorkerPointCloud, hiddenPointRemoval } = await readyPackage();
+const { PointCloud, hiddenPointRemoval } = await readyPackage();
 
 const positions = bumpySphere(5, 1500);
 const from = [0.3, 0.8, 2.5];
@@ -49,34 +49,6 @@ it("the answer is that of a cloud with the one point more and the same radius", 
   expect(cloud.length).toBe(1500);
   expect(cloud.sees(from, [])).toEqual(new Uint8Array(0));
   cloud.dispose();
-});
-
-it("a position farther than the radius is not seen", () => {
-  const cloud = new PointCloud(positions);
-  expect([...cloud.sees(from, [0.3, 0.8, 10.4, 0.3, 0.8, 10.6], { radius: 8 })]).toEqual([1, 0]);
-  cloud.dispose();
-});
-
-it("workers give the same answers", async () => {
-  const cloud = new PointCloud(positions);
-  const remote = await WorkerPointCloud.create(positions, { workers: 2 });
-  for (const options of choices) {
-    const own = places.slice();
-    const asked = remote.sees(from, own, options);
-    own.fill(0);
-    expect(await asked).toEqual(cloud.sees(from, places, options));
-  }
-  await remote.dispose();
-  cloud.dispose();
-});
-
-it("dimension, stride and nonFinite of the cloud apply", () => {
-  const flat = new PointCloud([0, 1, 9, 1, 0, 9], { dimension: 2, stride: 3 });
-  expect([...flat.sees([5, 0], [4, 0, 7, -4, 0, 7])]).toEqual([1, 0]);
-  flat.dispose();
-  const skipping = new PointCloud(positions, { nonFinite: "skip" });
-  expect([...skipping.sees(from, [NaN, 0, 0, ...from])]).toEqual([0, 1]);
-  skipping.dispose();
 });
 
 it("questions that make no sense are refused", () => {

@@ -129,18 +129,4 @@ describe("a direction", () => {
       expect(differing[2]).toBeLessThanOrEqual(1);
     }
   });
-
-  it("is the lower boundary of a lifted cloud, with the same bend however it is given", () => {
-    const limit = cloud.visibleFromDirection([0, 0, -1]);
-    expect(limit).toMatchObject({ evaluations: 0, inversion: "spherical" });
-    expect(cloud.visibleFromDirection([0, 0, -7]).indices).toEqual(limit.indices);
-    expect(cloud.visibleFromDirection([0, 0, -1], { radius: limit.radius }).indices).toEqual(limit.indices);
-    const { exponent } = limit;
-    expect(cloud.visibleFromDirection([0, 0, -1], { exponent }).radius).toBeCloseTo(limit.radius, 6);
-    // A point on the axis and its neighbors lie on the lower boundary of the lift x² + y². Points behind do not.
-    const few = new PointCloud([0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, -1]);
-    expect([...few.visibleFromDirection([0, 0, -1]).indices]).toEqual([0, 1, 2, 3, 4]);
-    expect([...few.visibleFromDirection([0, 0, 1]).indices]).toContain(5);
-    expect([...few.visibleFromDirection([0, 0, 1]).indices]).not.toContain(0);
-  });
 });

@@ -2,7 +2,7 @@ import { expect, it } from "vitest";
 
 import { bumpySphere, pointsAt, readyPackage } from "./support";
 
-const { PointCloud, WorkerPointCloud, hiddenPointRemoval } = await readyPackage();
+const { PointCloud } = await readyPackage();
 
 const positions = bumpySphere(5, 6000);
 const count = positions.length / 3;
@@ -47,70 +47,6 @@ it("the answer is that of a cloud of the chosen points alone", () => {
     alone.dispose();
   }
   cloud.dispose();
-});
-
-it("choices change from view to view, and the hull of one is no start for another", () => {
-  const cloud = new PointCloud(positions);
-  const masks = [0, 1, 2].map((rest) => Uint8Array.from({ length: count }, (_, i) => (i % 3 === rest ? 1 : 0)));
-  const asked = [undefined, ...masks.map((mask) => ({ mask })), { box }, { box, mask: masks[0]! }, { distance: 2.1 }];
-  for (let step = 0; step < 30; step++) {
-    const within = asked[(step * 5 + (step >> 2)) % asked.length];
-    const place = [0.3 + 0.001 * step, 0.8, 2.5];
-    const draft = cloud.visibleFrom(place, { within, draft: true });
-    const seen = cloud.visibleFrom(place, { within });
-    expect(seen.indices).toEqual(hiddenPointRemoval(positions, place, { within }).indices);
-    const drafted = draft.mask();
-    expect(seen.indices.every((i) => drafted[i] === 1)).toBe(true);
-  }
-  cloud.dispose();
-});
-
-it("a kept part follows changes of the cloud", () => {
-  const cloud = new PointCloud(positions.subarray(0, 9000));
-  expect(cloud.visibleFrom(from, { within: { box } }).count).toBeGreaterThan(0);
-  cloud.append(positions.subarray(9000));
-  cloud.remove([0, 1, 2, 3]);
-  const all = Uint8Array.from({ length: count }, (_, i) => (i > 3 ? 1 : 0));
-  const whole = new PointCloud(positions);
-  const expected = whole.visibleFrom(from, { within: { box, mask: all } });
-  expect(cloud.visibleFrom(from, { within: { box } }).indices).toEqual(expected.indices);
-  whole.dispose();
-  cloud.dispose();
-});
-
-it("workers give the same answers", async () => {
-  const cloud = new PointCloud(positions);
-  for (const workers of [1, 2]) {
-    const remote = await WorkerPointCloud.create(positions, { workers });
-    for (const within of choices) {
-      const changing = within.mask === undefined ? within : { ...within, mask: mask.slice() };
-      const asked = remote.visibleFrom(from, { within: changing });
-      // The mask was copied: a later change does not concern the request.
-      if ("mask" in changing) changing.mask.fill(0);
-      expect((await asked).indices).toEqual(cloud.visibleFrom(from, { within }).indices);
-    }
-    const places = [from, [2, 0, 0]];
-    const within = { distance: 2 };
-    const any = await remote.visibleFromAny(places, { within });
-    expect(any.indices).toEqual(cloud.visibleFromAny(places, { within }).indices);
-    expect(await remote.illuminate(places, { within })).toEqual(cloud.illuminate(places, { within }));
-    await remote.dispose();
-  }
-  cloud.dispose();
-});
-
-it("clouds in a plane follow a choice", () => {
-  const flat = new PointCloud([0, 1, 0, 2, 3, 0], { dimension: 2 });
-  const within = {
-    distance: 3.5,
-    box: [
-      [-1, -1],
-      [1, 5],
-    ] as const,
-  };
-  expect([...flat.visibleFrom([0, 5], { within }).indices]).toEqual([1]);
-  expect([...flat.visibleFrom([0, -2], { within }).indices]).toEqual([0]);
-  flat.dispose();
 });
 
 it("choices that make no sense are refused", () => {

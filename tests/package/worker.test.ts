@@ -36,80 +36,6 @@ afterEach(async () => {
 });
 
 describe("a cloud in a worker", () => {
-  it("gives the answers of the synchronous cloud, with several clouds at once", async () => {
-    const inputs: [ArrayLike<number>, object?][] = [
-      [sphere],
-      [Float64Array.from(bumpySphere(2, 1000))],
-      [[...bumpySphere(3, 500)]],
-      [Float32Array.from([...sphere, NaN, 1, 1]), { nonFinite: "skip" }],
-      [bumpySphere(4, 1200), { stride: 4 }],
-      [[]],
-    ];
-    await Promise.all(
-      inputs.map(async ([positions, options]) => {
-        const direct = new PointCloud(positions, options);
-        const cloud = await WorkerPointCloud.create(positions, options);
-        expect(cloud.length).toBe(direct.length);
-        expect(cloud.skipped).toBe(direct.skipped);
-        expect(cloud.spacing).toBe(direct.spacing);
-        for (const viewpoint of [farAway, [0.1, 0.2, 0.3], Float32Array.of(-4, 1, 2)]) {
-          for (const how of [{}, { exponent: 3 }, { radius: 5000 }]) {
-            const [there, here] = [await cloud.visibleFrom(viewpoint, how), direct.visibleFrom(viewpoint, how)];
-            expect(there).toEqual(here);
-            expect(there.mask()).toEqual(here.mask());
-          }
-          expect(await cloud.autoRadius(viewpoint, "auto")).toEqual(direct.autoRadius(viewpoint));
-        }
-        await cloud.dispose();
-      }),
-    );
-  });
-
-  it("is changed between the questions before the change and the questions after it", async () => {
-    const direct = new PointCloud(sphere.subarray(0, 3000), { stride: 4, nonFinite: "skip" });
-    const cloud = await WorkerPointCloud.create(sphere.subarray(0, 3000), { stride: 4, nonFinite: "skip" });
-    const more = sphere.slice(3000, 6000).fill(NaN, 0, 1);
-    const gone = [1, 2, 3, 900];
-    const expected = [direct.visibleFrom(farAway)];
-    direct.append(more);
-    expected.push(direct.visibleFrom(farAway));
-    direct.remove(gone);
-    expected.push(direct.visibleFrom(farAway));
-
-    const asked = [cloud.visibleFrom(farAway)];
-    const changes = [cloud.append(more)];
-    more.fill(0);
-    asked.push(cloud.visibleFrom(farAway));
-    changes.push(cloud.remove(gone));
-    gone.fill(0);
-    asked.push(cloud.visibleFrom(farAway));
-    expect(cloud).toHaveLength(750);
-    await Promise.all(changes);
-    expect([cloud.length, cloud.skipped, cloud.spacing]).toEqual([1500, 1, direct.spacing]);
-    const answers = await Promise.all(asked);
-    expect(answers).toEqual(expected);
-    expect(answers.map((answer) => answer.mask().length)).toEqual([750, 1500, 1500]);
-    expect(await cloud.autoRadius(farAway)).toEqual(direct.autoRadius(farAway));
-  });
-
-  it("is not changed by a change that is refused", async () => {
-    const cloud = await WorkerPointCloud.create(sphere);
-    const before = await cloud.visibleFrom(farAway);
-    const refusals: [code: string, change: () => Promise<void>][] = [
-      ["positions-length", () => cloud.append([1, 2])],
-      ["positions-type", () => cloud.append(loose("abc"))],
-      ["non-finite", () => cloud.append([1, 2, 3, NaN, 1, 1])],
-      ["option", () => cloud.remove([1, 3000])],
-      ["option", () => cloud.remove([1.5])],
-      ["option", () => cloud.remove(loose(undefined))],
-    ];
-    for (const [code, change] of refusals) {
-      expect((await problemOf(change)).code).toBe(code);
-    }
-    expect(cloud).toHaveLength(3000);
-    expect(await cloud.visibleFrom(farAway)).toEqual(before);
-  });
-
   it("needs no init()", async () => {
     const fresh = await freshPackage();
     const cloud = await fresh.WorkerPointCloud.create(sphere);
@@ -211,37 +137,12 @@ describe("refusals", () => {
     ["option", /transfer/, new Float32Array(new SharedArrayBuffer(12)), { transfer: true }],
     ["option", /signal/, sphere, { signal: 1 }],
   ];
+
   it.each(refusals)("by create: %s, naming %s", async (code, names, positions, options) => {
     const problem = await problemOf(() => WorkerPointCloud.create(loose(positions), loose(options)));
     expect(problem).toBeInstanceOf(HprError);
     expect(problem.code).toBe(code);
     expect(problem.message).toMatch(names);
-  });
-
-  it("by a view crosses the border with its code, and the next view works", async () => {
-    const cloud = await WorkerPointCloud.create(sphere);
-    const views: [code: string, viewpoint: unknown, options?: unknown][] = [
-      ["viewpoint", [1, 2]],
-      ["viewpoint", [1, NaN, 2]],
-      ["radius", farAway, { radius: 1 }],
-      ["option", farAway, { radius: 1, exponent: 1 }],
-      ["option", farAway, { exponent: -1 }],
-      ["option", farAway, { denoise: 0 }],
-      ["option", farAway, { vote: 3000 }],
-      ["option", farAway, { inversion: { power: 20 } }],
-      ["option", farAway, { latest: "yes" }],
-      ["option", farAway, { signal: {} }],
-    ];
-    for (const [code, viewpoint, options] of views) {
-      const problem = await problemOf(() => cloud.visibleFrom(loose(viewpoint), loose(options)));
-      expect(problem).toBeInstanceOf(HprError);
-      expect(problem.code).toBe(code);
-      const direct = await problemOf(() => new PointCloud(sphere).visibleFrom(loose(viewpoint), loose(options)));
-      expect(direct.code).toBe(code);
-    }
-    expect((await problemOf(() => cloud.autoRadius(farAway, loose("best")))).code).toBe("option");
-    expect((await problemOf(() => cloud.autoRadius([1, 2, Infinity]))).code).toBe("viewpoint");
-    expect((await cloud.visibleFrom(farAway)).count).toBeGreaterThan(10);
   });
 });
 
@@ -293,21 +194,6 @@ describe("requests given up", () => {
     const expected = new PointCloud(sphere).visibleFrom(farAway, { looks: 3 });
     expect((await cloud.visibleFrom(farAway, { looks: 3 })).indices).toEqual(expected.indices);
     await cloud.dispose();
-  });
-
-  it("are overtaken by a newer request with `latest`", async () => {
-    const cloud = await WorkerPointCloud.create(sphere);
-    const asked = [1, 2, 3, 4, 5].map((z) => cloud.visibleFrom([0, 0, z + 2], { latest: true }));
-    expect(await settled(asked)).toEqual(["answered", "aborted", "aborted", "aborted", "answered"]);
-    expect((await asked[4]!).indices).toEqual(new PointCloud(sphere).visibleFrom([0, 0, 7]).indices);
-    expect(await settled([cloud.visibleFrom(farAway, { latest: true })])).toEqual(["answered"]);
-  });
-
-  it("never include requests without `latest`", async () => {
-    const cloud = await WorkerPointCloud.create(sphere);
-    const flags = [true, false, true, false, true];
-    const asked = flags.map((latest) => cloud.visibleFrom(farAway, { latest }));
-    expect(await settled(asked)).toEqual(["answered", "answered", "aborted", "answered", "answered"]);
   });
 
   it("are overtaken only by requests of the same kind", async () => {
