@@ -18,12 +18,6 @@ export function writeMatrix(rows: Row[]): void {
     const title = name.replace(/<.*>/, "`$&`");
     return `| ${title} | ${version} | ${result} | ${glue.length} | ${seconds?.toFixed(1) ?? ""} |`;
   });
-  // Rows with the same lines share a paragraph.
-  const groups = new Map<string, string[]>();
-  for (const { name, glue = [] } of rows.map(({ consumer }) => consumer)) {
-    if (glue.length > 0) groups.set(glue.join("\n"), [...(groups.get(glue.join("\n")) ?? []), name]);
-  }
-  const paragraphs = [...groups].map(([lines, names]) => `${names.join("; ")}:\n\n\`\`\`\n${lines}\n\`\`\``);
   writeFileSync(
     join(import.meta.dirname, "MATRIX.md"),
     `# Consumers of the packed package
@@ -36,10 +30,6 @@ and asking on a shared machine, without \`npm install\`.
 | consumer | version | works first time | lines of glue | seconds |
 |---|---|---|---:|---:|
 ${lines.join("\n")}
-
-## The lines of glue
-
-${paragraphs.join("\n\n")}
 `,
   );
 }
