@@ -1,4 +1,5 @@
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
+from os import PathLike
 from typing import Any, Literal, Protocol, TypedDict
 
 import numpy as np
@@ -94,7 +95,7 @@ Seat = ArrayLike | Camera
 class HprError(ValueError):
     """Bad input."""
 
-    code: Literal["positions-length", "positions-type", "non-finite", "viewpoint", "radius", "option", "too-large"]
+    code: Literal["positions-length", "positions-type", "non-finite", "viewpoint", "radius", "option", "too-large", "load"]
 
 class Visibility:
     """Which points are visible."""
@@ -222,7 +223,13 @@ class PointCloud:
         """The points that a camera sees: `visible_from` its place, cut to its image, with `pixels` and `depths`."""
     def sees(self, viewpoint: ArrayLike, positions: Positions, **options: Unpack[Options]) -> NDArray[np.bool_]:
         """For points that are not in the cloud: whether each would be visible if it were added alone."""
-    def coverage(self, viewpoints: Iterable[Seat], **options: Unpack[Options]) -> NDArray[np.uint32]:
+    def coverage(
+        self,
+        viewpoints: Iterable[Seat],
+        *,
+        on_progress: Callable[[float], object] | None = None,
+        **options: Unpack[Options],
+    ) -> NDArray[np.uint32]:
         """How many of the viewpoints see each index."""
     def place_viewpoints(
         self,
@@ -237,7 +244,13 @@ class PointCloud:
         At most `count` are chosen, and no more than see `share` of the weight that some candidate sees. `weights` has
         a number of at least 0 for each index.
         """
-    def seen_by(self, cameras: Iterable[Camera], **options: Unpack[Options]) -> SeenBy:
+    def seen_by(
+        self,
+        cameras: Iterable[Camera],
+        *,
+        on_progress: Callable[[float], object] | None = None,
+        **options: Unpack[Options],
+    ) -> SeenBy:
         """Which cameras see each point, and where: the rows of a sparse matrix."""
     def calibrate(self, stations: Iterable[Station], **options: Unpack[Options]) -> Calibration:
         """The smallest thickness at which each station of a scan sees the points that it measured."""
@@ -298,11 +311,12 @@ def orient_normals(normals: ArrayLike, seen_by: SeenBy) -> NDArray[np.floating]:
 def transfer(
     cloud: PointCloud,
     cameras: Iterable[Camera],
-    images: Iterable[ArrayLike],
+    images: Iterable[ArrayLike | str | PathLike[str]],
     *,
     merge: Literal["median", "mean", "vote", "best"] | None = "mean",
     weights: Literal["distance", "angle", "score"] | None = None,
     sampling: Literal["nearest", "bilinear"] | None = "nearest",
+    on_progress: Callable[[float], object] | None = None,
     **options: Unpack[Options],
 ) -> tuple[NDArray[np.float32], NDArray[np.uint32]]:
     """From images to points: (values, seen). NaN where no camera sees a point."""

@@ -54,21 +54,53 @@ impl PointCloud {
         })
     }
 
-    /// What each camera sees. Warns of poses that were probably given the wrong way round.
+    /// What each camera sees, by as many threads. Warns of poses that were probably given the wrong way round.
     pub fn camera_views(
         &self,
         py: Python<'_>,
         cameras: &[Camera],
-        Asked { options, how }: Asked,
+        asked: &Asked,
+        on_progress: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Vec<CameraView>> {
-        let views = self.ask(py, how, |cloud| {
-            let view = |camera| cloud.visible_from_camera(camera, &options);
-            cameras.iter().map(view).collect::<Result<Vec<_>, _>>()
+        let mut views = Vec::new();
+        self.in_groups(py, cameras, asked, on_progress, |cloud, group| {
+            views.extend(seen_by::views(cloud, group, &asked.options)?);
+            Ok(())
         })?;
         views
             .iter()
             .try_for_each(|view| warn_if_inverted(py, view))?;
         Ok(views)
+    }
+
+    /// Asks about as many places at once as there are threads, and reports the progress between. The cloud is free then, so
+    /// the listener may use it.
+    fn in_groups<T: Sync>(
+        &self,
+        py: Python<'_>,
+        places: &[T],
+        asked: &Asked,
+        on_progress: Option<&Bound<'_, PyAny>>,
+        mut query: impl Send + FnMut(Threads<'_>, &[T]) -> Result<(), core::Error>,
+    ) -> PyResult<()> {
+        if on_progress.is_some_and(|listener| !listener.is_callable()) {
+            return Err(option(py, "on_progress must be callable".into()));
+        }
+        let threads = asked.how.threads;
+        let size = threads.unwrap_or(default_threads(self.__len__(py)?)).max(1);
+        let mut done = 0;
+        // Without a place, the options are checked all the same.
+        let groups = places
+            .chunks(size)
+            .chain(places.is_empty().then_some(places));
+        for group in groups {
+            self.ask(py, asked.how.clone(), |cloud| query(cloud, group))?;
+            done += group.len();
+            if let Some(listener) = on_progress.filter(|_| done > 0) {
+                listener.call1((done as f64 / places.len() as f64,))?;
+            }
+        }
+        Ok(())
     }
 
     fn view(
@@ -294,23 +326,32 @@ impl PointCloud {
         Ok(seen.into_pyarray(py))
     }
 
-    #[doc = asks!("coverage($self, viewpoints, *")]
+    #[doc = asks!("coverage($self, viewpoints, *, on_progress=None")]
     /// How many of the viewpoints see each point.
     ///
     /// viewpoints: list of 3 numbers each, or array of shape (m, 3). A camera may stand in the place of a viewpoint; it
     ///     sees only what is in its image.
+    /// on_progress: is called with the share that is done. An exception in it ends the question.
     /// Options: those of `visible_from`. Not with draft and scores.
     /// Returns an array of uint32, one number for each index.
-    #[pyo3(signature = (viewpoints, **options), text_signature = None)]
+    #[pyo3(signature = (viewpoints, *, on_progress=None, **options), text_signature = None)]
     fn coverage<'py>(
         &self,
         py: Python<'py>,
         viewpoints: &Bound<'_, PyAny>,
+        on_progress: Option<&Bound<'_, PyAny>>,
         options: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Bound<'py, PyArray1<u32>>> {
         let viewpoints = camera::seats(viewpoints, "viewpoints")?;
-        let Asked { options, how } = options::read(py, options)?;
-        let counts = self.ask(py, how, |cloud| cloud.coverage(&viewpoints, &options))?;
+        let asked = options::read(py, options)?;
+        let mut counts = Vec::new();
+        self.in_groups(py, &viewpoints, &asked, on_progress, |cloud, group| {
+            let more = cloud.coverage(group, &asked.options)?;
+            // A listener may have appended points.
+            counts.resize(more.len(), 0);
+            (counts.iter_mut().zip(more)).for_each(|(count, more): (&mut u32, u32)| *count += more);
+            Ok(())
+        })?;
         Ok(counts.into_pyarray(py))
     }
 
@@ -405,23 +446,25 @@ impl PointCloud {
         Ok((chosen.radius, chosen.exponent, chosen.evaluations))
     }
 
-    #[doc = asks!("seen_by($self, cameras, *")]
+    #[doc = asks!("seen_by($self, cameras, *, on_progress=None")]
     /// Which cameras see each point, and where.
     ///
     /// cameras: list of cameras, as for `visible_from_camera`.
+    /// on_progress: is called with the share that is done. An exception in it ends the question.
     /// Options: those of `visible_from`. Not with draft and scores.
     /// Returns a `SeenBy`: `offsets`, `cameras`, `pixels` and `towards`, the rows of a sparse matrix.
-    #[pyo3(signature = (cameras, **options), text_signature = None)]
+    #[pyo3(signature = (cameras, *, on_progress=None, **options), text_signature = None)]
     fn seen_by<'py>(
         &self,
         py: Python<'py>,
         cameras: &Bound<'_, PyAny>,
+        on_progress: Option<&Bound<'_, PyAny>>,
         options: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let cameras = camera::cameras(cameras)?;
         let asked = options::read(py, options)?;
         refuse_draft_and_scores(py, &asked.options, "seen_by")?;
-        let views = self.camera_views(py, &cameras, asked)?;
+        let views = self.camera_views(py, &cameras, &asked, on_progress)?;
         seen_by::rows(py, self.__len__(py)?, &views)
     }
 

@@ -9,7 +9,7 @@ pyo3::create_exception!(
     HprError,
     PyValueError,
     "Bad input. `code` names the kind of problem: positions-length, positions-type, non-finite,\n\
-     viewpoint, radius, option or too-large."
+     viewpoint, radius, option, too-large or load."
 );
 
 /// An `HprError` with this code.

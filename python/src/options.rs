@@ -30,7 +30,7 @@ pub struct Asked {
 }
 
 /// How a cloud is asked.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub struct How {
     /// Only these indices take part.
     pub mask: Option<Vec<bool>>,

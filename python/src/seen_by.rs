@@ -1,11 +1,32 @@
 //! Which cameras see each point, and normals that are turned towards them.
 
-use hidden_point_removal::CameraView;
+use hidden_point_removal::{Camera, CameraView, Error, Options, Threads};
 use numpy::{IntoPyArray, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 
 use crate::arrays::{Points, Positions};
 use crate::failure::{option, problem};
+
+/// What some cameras see. Each has a thread of its own; a single one is divided among all threads.
+pub fn views(
+    cloud: Threads<'_>,
+    cameras: &[Camera],
+    options: &Options,
+) -> Result<Vec<CameraView>, Error> {
+    if let [camera] = cameras {
+        return Ok(vec![cloud.visible_from_camera(camera, options)?]);
+    }
+    std::thread::scope(|scope| {
+        let spawn = |camera| scope.spawn(move || (*cloud).visible_from_camera(camera, options));
+        let asked: Vec<_> = cameras.iter().map(spawn).collect();
+        let answer = |thread: std::thread::ScopedJoinHandle<'_, _>| {
+            thread
+                .join()
+                .unwrap_or_else(|fault| std::panic::resume_unwind(fault))
+        };
+        asked.into_iter().map(answer).collect()
+    })
+}
 
 /// The views of all cameras as the rows of a sparse matrix, one for each of `length` points.
 pub fn rows<'py>(

@@ -3,7 +3,7 @@
 use hidden_point_removal::{Camera, CameraView};
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArrayDyn, PyUntypedArrayMethods};
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyDict, PyString};
 
 use crate::arrays::each;
 use crate::camera;
@@ -52,7 +52,7 @@ struct Entries {
     next: usize,
 }
 
-#[doc = asks!("transfer(cloud, cameras, images, *, merge='mean', weights=None, sampling='nearest'")]
+#[doc = asks!("transfer(cloud, cameras, images, *, merge='mean', weights=None, sampling='nearest', on_progress=None")]
 /// Takes values from images to the points of a cloud: colors, labels or features.
 ///
 /// A point has a value from each camera that sees it. Three looks decide what it sees, unless looks, radius, exponent or
@@ -60,20 +60,21 @@ struct Entries {
 ///
 /// cloud: `PointCloud`.
 /// cameras: list of cameras, as for `visible_from_camera`.
-/// images: list of arrays of shape (height, width) or (height, width, channels), one for each camera and of its size. A
-///     pixel with a NaN gives no value, nor one with alpha 0 in an image of 4 uint8 a pixel.
+/// images: list of arrays of shape (height, width) or (height, width, channels), one for each camera and of its size; also
+///     images of Pillow, or paths, which Pillow opens. A pixel with a NaN gives no value, nor one with alpha 0 in an image of 4 uint8 a pixel.
 /// merge: "mean" (default) or "median" of each channel, weighted; "vote": the pixel with the most weight among equal
 ///     ones, for labels; "best": that of the camera with the highest weight.
 /// weights: None (all the same; for "best", "distance"), "distance" (1 / depth**2), "angle" (the cosine between the ray
 ///     and the optical axis) or "score" (the view's, with looks).
 /// sampling: "nearest" (default) or "bilinear", between four pixels; not with "vote".
+/// on_progress: is called with the share of the cameras that is done. An exception in it ends the question.
 /// Options: those of `PointCloud.visible_from`. Not with draft and scores.
 ///
 /// Returns (values, seen): float32 of shape (n,) or (n, channels) in the images' own scale, NaN where nothing is seen;
 /// and uint32, how many cameras gave a value to each index.
 #[pyfunction]
 #[pyo3(
-    signature = (cloud, cameras, images, *, merge=None, weights=None, sampling=None, **options),
+    signature = (cloud, cameras, images, *, merge=None, weights=None, sampling=None, on_progress=None, **options),
     text_signature = None
 )]
 #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
@@ -85,6 +86,7 @@ pub fn transfer<'py>(
     merge: Option<&Bound<'py, PyAny>>,
     weights: Option<&Bound<'py, PyAny>>,
     sampling: Option<&Bound<'py, PyAny>>,
+    on_progress: Option<&Bound<'py, PyAny>>,
     options: Option<&Bound<'py, PyDict>>,
 ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyArray1<u32>>)> {
     let merge = word(py, "merge", merge, &Merge::WORDS)?.unwrap_or(Merge::Mean);
@@ -117,13 +119,18 @@ pub fn transfer<'py>(
     refuse_draft_and_scores(py, &asked.options, "transfer")?;
     asked.options.scores = weigh == Weights::Score;
     let cameras = camera::cameras(cameras)?;
-    let own =
-        each(images, "images", pixels).map_err(|error| option(py, error.value(py).to_string()))?;
+    let own = each(images, "images", pixels).map_err(|error| {
+        let code = error.value(py).getattr("code");
+        if code.is_ok_and(|code| code.eq("load").unwrap_or(false)) {
+            return error;
+        }
+        option(py, error.value(py).to_string())
+    })?;
     let (images, shape) = read_images(py, &own, &cameras)?;
 
     let cloud = cloud.get();
     let length = cloud.__len__(py)?;
-    let views = cloud.camera_views(py, &cameras, asked)?;
+    let views = cloud.camera_views(py, &cameras, &asked, on_progress)?;
     let channels = images.first().map_or(1, |image| image.channels);
     let (values, seen) = py
         .detach(|| {
@@ -277,9 +284,15 @@ fn pixels<'py>(given: &Bound<'py, PyAny>, name: &str) -> PyResult<Pixels<'py>> {
         option(py, message)
     };
     let numpy = py.import("numpy")?;
-    let array = numpy
-        .call_method1("asarray", (given,))
-        .map_err(|_| wrong())?;
+    let is_path = given.is_instance_of::<PyString>() || given.hasattr("__fspath__")?;
+    let array = if is_path {
+        let opened = (py.import("PIL.Image")?.call_method1("open", (given,)))
+            .and_then(|image| numpy.call_method1("asarray", (image,)));
+        opened.map_err(|error| problem(py, "load", format!("{name} cannot be read: {error}")))?
+    } else {
+        let array = numpy.call_method1("asarray", (given,));
+        array.map_err(|_| wrong())?
+    };
     let dtype = array.getattr("dtype")?;
     let kind: String = dtype.getattr("kind")?.extract()?;
     let size: usize = dtype.getattr("itemsize")?.extract()?;

@@ -98,6 +98,45 @@ def test_colors_go_from_images_to_points():
     assert np.allclose(smooth[view.indices], view.pixels[:, 0].clip(0.5, 63.5), atol=1e-3)
 
 
+def test_images_may_be_files(tmp_path):
+    image = pytest.importorskip("PIL.Image")
+    photos = [np.random.default_rng(number).integers(0, 256, (48, 64, 3), np.uint8) for number in range(3)]
+    for number, photo in enumerate(photos):
+        image.fromarray(photo).save(tmp_path / f"{number}.png")
+    paths = [tmp_path / "0.png", str(tmp_path / "1.png"), image.open(tmp_path / "2.png")]
+    for one, other in zip(transfer(CLOUD, CAMERAS, paths), transfer(CLOUD, CAMERAS, photos)):
+        assert np.array_equal(one, other, equal_nan=True)
+    with pytest.raises(HprError, match=r"images\[1\] cannot be read: .*nothing.png") as refusal:
+        transfer(CLOUD, CAMERAS, [paths[0], tmp_path / "nothing.png", paths[2]])
+    assert refusal.value.code == "load"
+
+
+@pytest.mark.parametrize("threads", [1, 2, 5])
+def test_progress_is_told_and_can_end_a_question(threads):
+    photos = [np.full((48, 64), number, np.uint8) for number in range(3)]
+    options = {"looks": 2, "threads": threads}
+    for ask in (
+        lambda **more: CLOUD.seen_by(CAMERAS, **options, **more),
+        lambda **more: (CLOUD.coverage(CAMERAS, **options, **more),),
+        lambda **more: transfer(CLOUD, CAMERAS, photos, **options, **more),
+    ):
+        told = []
+        for one, other in zip(ask(), ask(on_progress=told.append)):
+            assert np.array_equal(one, other, equal_nan=other.dtype.kind == "f")
+        assert told == [min(done / 3, 1) for done in {1: (1, 2, 3), 2: (2, 3), 5: (3,)}[threads]]
+        with pytest.raises(ZeroDivisionError):
+            ask(on_progress=lambda share: 1 / 0)
+        with pytest.raises(HprError, match="on_progress must be callable"):
+            ask(on_progress=5)
+
+
+def test_a_listener_may_change_the_cloud():
+    cloud = PointCloud(ball())
+    seen = cloud.seen_by(CAMERAS, threads=1, on_progress=lambda share: cloud.append(ball(50, seed=8)))
+    assert len(seen.offsets) == len(cloud) + 1 == 2151
+    assert len(cloud.coverage(CAMERAS, threads=1, on_progress=lambda share: cloud.append(ball(50, seed=9)))) == 2250
+
+
 def test_a_map_hides_no_visible_point():
     points = ball(20_000)
     for options in ({}, {"exponent": 3}, {"towards": camera(VIEWPOINT)}, {"towards": {"direction": [0, 0, -1], "angle": 60}}):
@@ -148,7 +187,7 @@ IMAGE = np.zeros((48, 64))
         ("option", "seen_by", lambda: orient_normals(ball(), CLOUD.seen_by(CAMERAS)._replace(towards=np.zeros((1, 3), "f4")))),
         ("option", "one image for each of 3", lambda: transfer(CLOUD, CAMERAS, [IMAGE])),
         ("option", "images", lambda: transfer(CLOUD, CAMERAS, 7)),
-        ("option", r"images\[1\].*array", lambda: transfer(CLOUD, CAMERAS, [IMAGE, "red", IMAGE])),
+        ("option", r"images\[1\].*array", lambda: transfer(CLOUD, CAMERAS, [IMAGE, object(), IMAGE])),
         ("option", r"images\[1\].*array", lambda: transfer(CLOUD, CAMERAS, [IMAGE, IMAGE[0], IMAGE])),
         ("option", r"images\[2\].*64 x 48", lambda: transfer(CLOUD, CAMERAS, [IMAGE, IMAGE, IMAGE.T])),
         ("option", r"images\[2\].*1 channels", lambda: transfer(CLOUD, CAMERAS, [IMAGE, IMAGE, np.zeros((48, 64, 3))])),

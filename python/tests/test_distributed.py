@@ -43,6 +43,18 @@ def cut(points, how, seed=3):
     return np.split(points[order], bounds)
 
 
+def test_chunks_of_dask_arrays_are_tiles():
+    arrays = pytest.importorskip("dask.array")
+    points = town(5000)
+    lazy = arrays.from_array(points, chunks=(1700, 2))
+    answers = visible_from_tiles(lazy, VIEWPOINTS[:2])
+    for one, other in zip(answers, visible_from_tiles(np.array_split(points, 4), VIEWPOINTS[:2])):
+        assert np.array_equal(one, other)
+    with pytest.raises(HprError, match=r"shape \(n, 3\)") as refusal:
+        visible_from_tiles(lazy[:, :2], VIEWPOINTS)
+    assert refusal.value.code == "positions-length"
+
+
 @pytest.mark.parametrize("how", ["squares", "random"])
 @pytest.mark.parametrize("dtype", [np.float32, np.float64])
 @pytest.mark.parametrize("options", [{}, {"radius": 40_000.0}, {"inversion": {"power": 2}, "radius": 1000.0}])

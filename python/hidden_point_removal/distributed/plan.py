@@ -15,7 +15,7 @@ from .copc import is_copc, nodes_of
 from .engines import engine_for, tree
 from .manifest import digest_of, file_of, identity
 from .sectors import visible_in_sectors
-from .tiles import refuse
+from .tiles import refuse, tiles_of
 from .waves import waves_of
 
 #: A merge takes parts with about this many points together.
@@ -54,7 +54,8 @@ def visible_from_tiles(tiles, viewpoints, client=None, *, share=0.02, cache=True
     cloud with all points.
 
     tiles: arrays of shape (n, 3), functions that return one, or paths of LAS, LAZ, COPC, Parquet or NumPy files. Each
-    node of a COPC file is a tile of its own; its points keep their order in the file.
+    node of a COPC file is a tile of its own; its points keep their order in the file. Or one `dask.array` of shape (n, 3),
+    whose chunks are the tiles.
     client: a `dask.distributed.Client`. Without one, this process does the work.
     share: the share of the points that is kept in the manifest and makes the first horizon.
     cache: whether the facts of files are kept beside them, in `.hpr-manifest`.
@@ -71,7 +72,7 @@ def visible_from_tiles(tiles, viewpoints, client=None, *, share=0.02, cache=True
     for name in given:
         if name not in MERGEABLE:
             refuse("option", f"{name} cannot be combined with tiles; the options are {', '.join(MERGEABLE)}")
-    tiles = list(tiles)
+    tiles = tiles_of(tiles)
     viewpoints = [_place(viewpoint) for viewpoint in viewpoints]
     if isinstance(share, bool) or not isinstance(share, (int, float)) or not 0 < share <= 1:
         refuse("option", f"share must be above 0 and at most 1, got {share!r}")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -38,6 +39,16 @@ def reading(path):
         yield
     except tuple(errors) as problem:
         broken(path, problem)
+
+
+def tiles_of(given):
+    """The tiles of a list, or the chunks of rows of a `dask.array`, each of which is computed where it is read."""
+    if not hasattr(given, "to_delayed"):
+        return list(given)
+    if given.ndim != 2 or given.shape[1] != 3:
+        refuse("positions-length", f"tiles must have the shape (n, 3), got {given.shape}")
+    blocks = given.rechunk({1: 3}).to_delayed()[:, 0]
+    return [partial(block.compute, scheduler="synchronous") for block in blocks]
 
 
 def read_tile(tile):
