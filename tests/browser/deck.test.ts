@@ -84,6 +84,62 @@ it("lets only visible points be picked", async () => {
   expect(front.filter((index) => index % 2 === 1).length).toBeLessThan(3);
 });
 
+it("draws and picks by a map while the camera moves", async () => {
+  const found = await inPage(async (page) => {
+    // A bumpy ball of 20,000 points far from the origin.
+    const [COUNT, HOME] = [20_000, 4_000_000];
+    const value = new Float64Array(3 * COUNT);
+    for (let i = 0; i < COUNT; i++) {
+      const up = 1 - (2 * (i + 0.5)) / COUNT;
+      const radius = (1 + 0.1 * Math.sin(16.8 * i)) * Math.sqrt(1 - up * up);
+      value.set([HOME + radius * Math.cos(2.399963 * i), up, radius * Math.sin(2.399963 * i)], 3 * i);
+    }
+    page.answers.length = 0;
+    const data = { length: COUNT, attributes: { getPosition: { value, size: 3 } } };
+    const turn = (rotationOrbit: number) => {
+      page.set(
+        { data: data as never, pointSize: 0.5 },
+        { zoom: 7, target: [HOME, 0, 0], rotationOrbit, rotationX: 20 },
+      );
+    };
+    const frame = () => new Promise((resolve) => requestAnimationFrame(resolve));
+    turn(0);
+    while (page.answers.length === 0) await frame();
+    await frame();
+    const rest = await page.drawn();
+    let degrees = 0;
+    const orbit = async () => {
+      do {
+        turn((degrees += 0.5));
+        await frame();
+      } while (!page.isMapped() && degrees < 150);
+    };
+    await orbit();
+    const isMapped = page.isMapped();
+    const moving = await page.drawn();
+    const exact = new Set(await page.visibleFrom(page.camera(), [...value]));
+    // Nothing is left out any more when the layer draws all points.
+    page.set({ visibility: { exponent: 3, stale: "all" } });
+    await frame();
+    turn(degrees + 1);
+    await frame();
+    return {
+      rest: rest.length,
+      moving: moving.length,
+      isMapped,
+      hidden: moving.filter((i) => !exact.has(i)).length,
+      all: (await page.drawn()).length,
+      errors: page.errors,
+    };
+  });
+  console.log(found);
+  expect(found.errors).toEqual([]);
+  expect(found.isMapped).toBe(true);
+  expect(found.moving).toBeGreaterThan(0.95 * found.rest);
+  expect(found.hidden).toBeLessThan(0.2 * found.moving);
+  expect(found.all).toBeGreaterThan(1.3 * found.moving);
+});
+
 it("takes any data, a viewpoint and other options", async () => {
   await inPage(({ set }) => {
     set({

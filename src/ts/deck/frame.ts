@@ -40,6 +40,11 @@ export class Frame {
     this.key = JSON.stringify([this.#isInDegrees, content]);
   }
 
+  /** Whether the cloud has the data's own coordinates, which a shader knows. */
+  get isOwn(): boolean {
+    return !this.#isInDegrees;
+  }
+
   get #isInDegrees(): boolean {
     return this.#system.startsWith("lnglat");
   }

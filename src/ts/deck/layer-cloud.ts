@@ -5,11 +5,13 @@ import { type FollowSettings, stagesFor } from "../query/follow-options.js";
 import { isNear, type Place } from "../query/place.js";
 import type { VisibilityOptions } from "../query/view-options.js";
 import type { Visibility } from "../cloud/visibility.js";
+import { VisibilityMap } from "../cloud/visibility-map.js";
 import { WorkerPointCloud } from "../worker/client.js";
 
 interface Listener {
   /** After this call, the answer's memory is reused. */
   answer: (answer: Visibility, kind: AnswerKind, milliseconds: number) => void;
+  map: (map: VisibilityMap, from: Place) => void;
   error: (error: Error) => void;
 }
 
@@ -24,6 +26,7 @@ export class LayerCloud {
   readonly #refinement = new Refinement<VisibilityOptions>(() => this.#follower?.follow());
   #place: Place | undefined;
   #settings: FollowSettings | undefined;
+  #drawsMaps = false;
   #follower: Follower | undefined;
   #cloud: WorkerPointCloud | undefined;
   /** Reads the positions. Undefined after it was called. */
@@ -63,15 +66,17 @@ export class LayerCloud {
     this.#follower.follow();
   }
 
-  /** Answers are wanted for this view. Returns whether it is new. */
-  want(place: Place, settings: FollowSettings): boolean {
+  /** Answers are wanted for this view. `drawsMaps`: maps can be drawn. Returns whether the view is new. */
+  want(place: Place, settings: FollowSettings, drawsMaps: boolean): boolean {
     const isSame =
       this.#place !== undefined &&
       this.#settings === settings &&
+      this.#drawsMaps === drawsMaps &&
       isNear(this.#place, place, settings.moveThreshold, this.#cloud?.spacing ?? 0);
     if (!isSame) {
       this.#place = place;
       this.#settings = settings;
+      this.#drawsMaps = drawsMaps;
       this.#begin();
     }
     this.#follower?.follow();
@@ -80,7 +85,8 @@ export class LayerCloud {
 
   #begin(): void {
     if (this.#settings !== undefined) {
-      this.#refinement.moved(stagesFor(this.#settings, this.length));
+      const isMapped = this.#drawsMaps && this.#place?.isDirection !== true;
+      this.#refinement.moved(stagesFor(this.#settings, this.length, isMapped));
     }
   }
 
@@ -116,17 +122,26 @@ export class LayerCloud {
     };
   }
 
-  #viewing(cloud: WorkerPointCloud, { from, isDirection }: Place): Round<Visibility> {
+  #viewing(cloud: WorkerPointCloud, place: Place): Round<Visibility | VisibilityMap> {
     const begun = performance.now();
-    return this.#refinement.round(
-      ({ options, signal }) => {
+    const { from, isDirection } = place;
+    return this.#refinement.round<Visibility | VisibilityMap>(
+      ({ kind, options, signal }) => {
         const asked = { ...options, signal };
+        if (kind === "map") {
+          return cloud.visibilityMap(from, asked);
+        }
         return isDirection ? cloud.visibleFromDirection(from, asked) : cloud.visibleFrom(from, asked);
       },
       (answer, stage) => {
         this.#follower?.answered();
         if (this.#settings?.stale === "all" && !stage.isCurrent()) {
           return undefined;
+        }
+        if (answer instanceof VisibilityMap) {
+          return () => {
+            this.#tell.map(answer, place);
+          };
         }
         return () => {
           this.#tell.answer(answer, stage.kind, performance.now() - begun);

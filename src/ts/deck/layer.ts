@@ -8,9 +8,12 @@ import { FOLLOW_OPTIONS, type FollowOptions, type FollowSettings, followSettings
 import { givenOptions, pick } from "../query/options.js";
 import { VIEW_OPTIONS, type VisibilityOptions } from "../query/view-options.js";
 import type { Visibility } from "../cloud/visibility.js";
+import type { VisibilityMap } from "../cloud/visibility-map.js";
+import { isFarFrom, type Place } from "../query/place.js";
 import { isBinary, positionsOf } from "./data.js";
 import { Frame } from "./frame.js";
 import { LayerCloud } from "./layer-cloud.js";
+import { MapExtension, type MapOnCard, textureOf, type TextureMaker } from "./map-extension.js";
 
 /** The properties of a `PointCloudLayer`, and the viewpoint. */
 export type VisiblePointCloudLayerProps<DataT = unknown> = PointCloudLayerProps<DataT> & {
@@ -26,8 +29,9 @@ export type VisiblePointCloudLayerProps<DataT = unknown> = PointCloudLayerProps<
   /** How each view is computed, and how answers follow the viewpoint. */
   visibility?: VisibilityOptions & FollowOptions;
   /**
-   * A new answer is drawn. `answer` says what it is: a draft comes before the exact answer. `visible`
-   * holds the indices of the points that are drawn; later answers use its memory again.
+   * A new answer is drawn. `answer` says what it is: a draft may come before the exact answer. `visible`
+   * holds the indices of the points that are drawn; later answers use its memory again. Maps, by which the card leaves
+   * out points while the camera moves, are not told.
    */
   onVisible?: ((answer: VisibleAnswer) => void) | null;
 };
@@ -69,12 +73,19 @@ type State = {
   version: number;
   /** The data with the mask as an attribute, if the data is binary. */
   data: unknown;
+  /** The map that is drawn instead of an answer, and the places of what is drawn and of the camera before. */
+  map: MapOnCard | undefined;
+  drawnFrom: Place | undefined;
+  before: Place | undefined;
+  center: readonly number[] | undefined;
 };
 
 type Update = Pick<UpdateParameters<Layer>, "changeFlags">;
 
 const NO_OPTIONS: VisibilityOptions = {};
 const filter = new DataFilterExtension({ filterSize: 1 });
+const mapped = new MapExtension();
+let hasSaid = false;
 const VISIBLE: [number, number] = [0.5, 1.5];
 /** deck.gl shows a layer this view before the first true one. */
 const NO_VIEW_YET = "DEFAULT-INITIAL-VIEWPORT";
@@ -118,6 +129,9 @@ export class VisiblePointCloudLayer<DataT = unknown> extends CompositeLayer<Visi
       answer: (answer, kind, milliseconds) => {
         (this.getCurrentLayer() as this | null)?.applyAnswer(answer, kind, milliseconds);
       },
+      map: (map, from) => {
+        (this.getCurrentLayer() as this | null)?.applyMap(map, from);
+      },
       error: (error) => {
         this.getCurrentLayer()?.raiseError(error, "");
       },
@@ -130,6 +144,10 @@ export class VisiblePointCloudLayer<DataT = unknown> extends CompositeLayer<Visi
       mask: undefined,
       version: 0,
       data: undefined,
+      map: undefined,
+      drawnFrom: undefined,
+      before: undefined,
+      center: undefined,
     });
   }
 
@@ -159,7 +177,8 @@ export class VisiblePointCloudLayer<DataT = unknown> extends CompositeLayer<Visi
     if (this.state.refusal === error.message) {
       return;
     }
-    this.setState({ refusal: error.message, mask: undefined, data: undefined });
+    this.#drawAll();
+    this.setState({ refusal: error.message });
     const report = () => {
       const layer = this.getCurrentLayer() as this | null;
       if (layer?.state.refusal === error.message) {
@@ -177,27 +196,45 @@ export class VisiblePointCloudLayer<DataT = unknown> extends CompositeLayer<Visi
     const frame = (this.state.frame = new Frame(viewport, this.props));
     const isMoved = typeof triggers === "object" && ("getPosition" in triggers || "all" in triggers);
     if (dataChanged || isMoved || earlier?.key !== frame.key) {
-      this.setState({ mask: undefined, data: undefined });
+      this.#drawAll();
       cloud.setPositions(() => frame.take(positionsOf(data, getPosition)));
     } else {
       frame.goOn(earlier);
     }
     const place = viewpoint === null ? frame.seen(viewport) : frame.given(viewpoint);
     const settings = this.#settingsOf(visibility);
-    const isNew = cloud.want(place, settings);
-    if (isNew && settings.stale === "all" && this.state.mask !== undefined) {
-      this.setState({ mask: undefined, data: undefined });
+    const drawsMaps = frame.isOwn && this.context.device.type === "webgl";
+    if (!drawsMaps && settings.mapped !== undefined && !hasSaid) {
+      hasSaid = true;
+      console.info("hidden-point-removal: data in degrees takes no map of directions, so drafts are drawn");
+    }
+    const isNew = cloud.want(place, settings, drawsMaps);
+    const { drawnFrom, before, center } = this.state;
+    const isFar = center !== undefined && drawnFrom !== undefined && before !== undefined;
+    if ((isNew && settings.stale === "all") || (isFar && isFarFrom(drawnFrom, before, center))) {
+      this.#drawAll();
+    }
+    this.state.before = place;
+  }
+
+  /** Draws all points until the next answer. */
+  #drawAll(): void {
+    const { mask, map } = this.state;
+    if (mask !== undefined || map !== undefined) {
+      map?.texture.destroy();
+      this.setState({ mask: undefined, data: undefined, map: undefined, drawnFrom: undefined });
     }
   }
 
   /** @internal */
   override finalizeState(): void {
     this.state.cloud.dispose();
+    this.state.map?.texture.destroy();
   }
 
   /** @internal */
   override renderLayers(): Layer {
-    const { mask, version, data = this.props.data } = this.state;
+    const { mask, version, data = this.props.data, map } = this.state;
     const { extensions, updateTriggers } = this.props;
     const own = Object.entries(this.props).filter(([name]) => name in PointCloudLayer.defaultProps);
     const shared = this.getSubLayerProps({
@@ -208,10 +245,11 @@ export class VisiblePointCloudLayer<DataT = unknown> extends CompositeLayer<Visi
       ...Object.fromEntries(own),
       ...shared,
       data,
-      extensions: [...extensions, filter],
+      extensions: [...extensions, filter, mapped],
+      hprMap: map,
       getFilterValue: (_: unknown, { index }: { index: number }) => mask?.[index] ?? 1,
       filterRange: VISIBLE,
-      filterEnabled: mask !== undefined,
+      filterEnabled: mask !== undefined && map === undefined,
     } as never);
   }
 
@@ -221,7 +259,8 @@ export class VisiblePointCloudLayer<DataT = unknown> extends CompositeLayer<Visi
     if (read?.given !== visibility) {
       const text = JSON.stringify(visibility);
       const given = givenOptions(visibility, VIEW_OPTIONS, FOLLOW_OPTIONS);
-      const settings = read?.text === text ? read.settings : followSettings(given, pick(given, VIEW_OPTIONS));
+      const settings =
+        read?.text === text ? read.settings : followSettings(given, pick(given, VIEW_OPTIONS), { hasShaders: true });
       if (settings.stages.some((stage) => stage.options.scores === true)) {
         throw new HprError("option", "scores have no effect in this layer; leave them out");
       }
@@ -243,12 +282,20 @@ export class VisiblePointCloudLayer<DataT = unknown> extends CompositeLayer<Visi
     const withMask = isBinary(data)
       ? { ...data, attributes: { ...data.attributes, getFilterValue: { value: mask, size: 1 } } }
       : undefined;
-    this.setState({ mask, version: version + 1, data: withMask });
+    this.state.map?.texture.destroy();
+    this.setState({ mask, version: version + 1, data: withMask, map: undefined, drawnFrom: this.state.before });
     (this.props as unknown as Own).onVisible?.({
       count: answer.count,
       milliseconds,
       answer: kind,
       visible: answer.indices,
     });
+  }
+
+  /** @internal */
+  applyMap(map: VisibilityMap, from: Place): void {
+    this.state.map?.texture.destroy();
+    const texture = textureOf(this.context.device as unknown as TextureMaker, map.data);
+    this.setState({ map: { map, texture }, drawnFrom: from, center: map.center });
   }
 }

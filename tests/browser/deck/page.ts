@@ -25,6 +25,10 @@ export interface DeckPage {
   /** Ends this many workers, each as soon as it is asked about a view. */
   killWorkerWhenAsked: (times?: number) => void;
   pick: (x: number, y: number) => Promise<number | undefined>;
+  /** The points in the picture, from the pixels that deck.gl draws to pick from. */
+  drawn: () => Promise<number[]>;
+  /** Whether the picture is drawn by a map. */
+  isMapped: () => boolean;
 }
 
 const workers: Worker[] = [];
@@ -103,6 +107,8 @@ const page: DeckPage = {
     toKill = times;
   },
   pick: async (x, y) => (await deck.pickObjectAsync({ x, y, radius: 3 }))?.index,
+  drawn: async () => (await deck.pickObjectsAsync({ x: 0, y: 0, width: 300, height: 300 })).map(({ index }) => index),
+  isMapped: () => (sublayer().props as { hprMap?: unknown }).hprMap !== undefined,
 };
 (globalThis as unknown as { page: DeckPage }).page = page;
 
