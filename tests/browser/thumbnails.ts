@@ -26,7 +26,7 @@ for (const sample of SAMPLES) {
   await page.locator('#status[data-state="ready"][data-busy="0"]').waitFor({ state: "attached", timeout: 120_000 });
   await page.waitForTimeout(1000);
   const picture = sharp(await page.locator("#view").screenshot()).resize(WIDTH, HEIGHT);
-  const bytes = await picture.avif({ quality: 45, effort: 9 }).toBuffer();
+  const bytes = await picture.avif({ quality: 36, effort: 9 }).toBuffer();
   writeFileSync(join(FOLDER, `${sample}.avif`), bytes);
   console.log(`${sample}: ${bytes.length} bytes`);
   await page.close();
