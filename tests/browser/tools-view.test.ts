@@ -4,8 +4,6 @@ import { at, openBall, place, tool } from "./ball.js";
 import {
   differentPixels,
   drag,
-  dragonPositions,
-  inNode,
   openReady,
   PHONE,
   picture,
@@ -13,7 +11,6 @@ import {
   serveSmallDragon,
   settled,
   status,
-  unfold,
   upToDate,
 } from "./support.js";
 
@@ -94,43 +91,6 @@ test("a message names an invalid divider", async () => {
     "The place of the divider in the address is not a number from 0 to 1, so the picture is not divided.",
   );
   expect(await page.locator("#divider").isVisible()).toBe(false);
-});
-
-test("the plot is the visible share of this view at each exponent, and a click chooses one", async () => {
-  const page = await openReady("?sample=dragon_res4&looks=0");
-  const before = await upToDate(page);
-  await unfold(page, "Visible share by radius");
-  const plot = page.locator("#plot");
-  const complete = () => page.locator('#plot[data-points="13"]').waitFor({ state: "attached", timeout: 60_000 });
-  const shares = () => plot.locator("circle title").allTextContents();
-  const expected = ({ viewpoint }: { viewpoint: number[] }) =>
-    inNode(dragonPositions("_res4"), (cloud) => {
-      return Array.from(
-        { length: 13 },
-        (_, i) => `${i / 2}: ${((100 * cloud.visibleFrom(viewpoint, { exponent: i / 2 }).count) / 5205).toFixed(1)} %`,
-      );
-    });
-  await complete();
-  expect(await shares()).toEqual(await expected(before));
-  // The plot's questions do not count as answers of the picture.
-  expect(await status(page)).toEqual(before);
-
-  await page.locator("#view").press("ArrowLeft");
-  const moved = await refiltered(page, before);
-  await complete();
-  expect(await shares()).toEqual(await expected(moved));
-
-  const mark = await plot.locator(".automatic").evaluate((line) => Number(line.getAttribute("x1")));
-  expect(mark).toBeCloseTo(34 + (moved.exponent / 6) * 238, 6);
-  const box = (await plot.boundingBox())!;
-  await plot.click({ position: { x: ((34 + 238 / 3) / 280) * box.width, y: box.height / 2 } });
-  const chosen = await refiltered(page, moved);
-  expect(chosen.exponent).toBeCloseTo(2, 1);
-  expect(await page.getByLabel("Exponent", { exact: true }).inputValue()).toBe(
-    String(Number(chosen.exponent.toFixed(2))),
-  );
-  // The automatic exponent stays in its place.
-  expect(await plot.locator(".automatic").evaluate((line) => Number(line.getAttribute("x1")))).toBeCloseTo(mark, 6);
 });
 
 test("the question mark opens the sheet with all keys; it keeps the focus and gives it back", async () => {

@@ -65,7 +65,7 @@ export function wire({
   });
   viewer.onAnswer = (answer, total) => {
     panel.follow(answer);
-    workshop.answer(answer);
+    workshop.answer();
     status.answer(answer, total, store.current.freeze !== null);
     notices.tell(answer.note);
   };
@@ -78,7 +78,6 @@ export function wire({
   };
   viewer.onAutomatic = (exponent) => {
     panel.markAutomatic(exponent);
-    workshop.markAutomatic(exponent);
   };
   viewer.onBusy = (busy, byMap) => {
     status.busy(busy);

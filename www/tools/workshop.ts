@@ -1,49 +1,41 @@
-import type { TimedView } from "../ask/inquiry.ts";
 import { nextFrame } from "../controls/dom.ts";
 import type { MarkParameter } from "../settings/address.ts";
 import type { Store } from "../settings/store.ts";
 import type { Viewer } from "../view/viewer.ts";
 import type { ExportActions } from "./export.ts";
-import type { Plot } from "./plot.ts";
 import type { Tools } from "./tools.ts";
 
-/** The tools over the cloud, and the plot. They are loaded after the first cloud, so that it does not wait for them. */
+/** The tools over the cloud. They are loaded after the first cloud, so that it does not wait for them. */
 export class Workshop {
-  readonly #load: () => Promise<{ tools: Tools; plot: Plot }>;
+  readonly #load: () => Promise<Tools>;
   readonly #viewer: Viewer;
-  #here: { tools: Tools; plot: Plot } | null = null;
+  #tools: Tools | null = null;
   #coming: Promise<void> | null = null;
   /** An address whose marks wait for the tools. */
   #search: string | null = null;
   readonly #changed: () => void;
-  /** The last known exponent of the automatic radius. */
-  #automatic: number | null = null;
 
   constructor(viewer: Viewer, store: Store, actions: ExportActions) {
     this.#viewer = viewer;
     this.#changed = actions.changed;
-    this.#load = async () => {
-      const [{ Tools }, { Plot }] = await Promise.all([import("./tools.ts"), import("./plot.ts")]);
-      return { tools: new Tools(viewer, store, actions), plot: new Plot(viewer, store) };
-    };
+    this.#load = async () => new (await import("./tools.ts")).Tools(viewer, store, actions);
   }
 
   /** Marks, the selection and stations for the address. `null`: the tools are not there yet. */
   get marks(): Record<MarkParameter, string[]> | null {
-    return this.#here && this.#search === null ? this.#here.tools.marks : null;
+    return this.#tools && this.#search === null ? this.#tools.marks : null;
   }
 
   /** Called when another cloud is about to be shown. */
   clear(): void {
     this.#search = null;
-    this.#here?.tools.clear();
+    this.#tools?.clear();
   }
 
   /** Called when other points of the same cloud are shown. Places and selections belong to the points before. */
   exchange(): void {
     this.clear();
-    this.#here?.plot.clear();
-    this.#here?.tools.begin();
+    this.#tools?.begin();
   }
 
   /**
@@ -53,9 +45,9 @@ export class Workshop {
   async begin(search: string | null): Promise<string | null> {
     this.#search = search;
     await this.#open();
-    const here = this.#here;
-    if (!here || search === null || this.#search !== search || !this.#viewer.cloud) return null;
-    const said = await here.tools.restore(search);
+    const tools = this.#tools;
+    if (!tools || search === null || this.#search !== search || !this.#viewer.cloud) return null;
+    const said = await tools.restore(search);
     // Another cloud may have come.
     if (this.#search !== search) return null;
     this.#search = null;
@@ -64,9 +56,8 @@ export class Workshop {
   }
 
   async #open(): Promise<void> {
-    if (this.#here) {
-      this.#here.plot.clear();
-      this.#here.tools.begin();
+    if (this.#tools) {
+      this.#tools.begin();
       return;
     }
     this.#coming ??= this.#make().finally(() => {
@@ -77,31 +68,22 @@ export class Workshop {
 
   async #make(): Promise<void> {
     await nextFrame();
-    const { tools, plot } = (this.#here = await this.#load());
-    plot.clear();
-    tools.follow();
-    plot.answer(this.#viewer.scene.answer);
-    if (this.#automatic !== null) plot.markAutomatic(this.#automatic);
+    this.#tools = await this.#load();
+    this.#tools.follow();
   }
 
   /** A number that the tools have found. `null`: none. */
   figure(name: "distance" | "unseen"): number | null {
-    return this.#here?.tools.figure(name) ?? null;
+    return this.#tools?.figure(name) ?? null;
   }
 
   /** Called every frame. */
   place(): void {
-    this.#here?.tools.place();
-    this.#here?.plot.follow();
+    this.#tools?.place();
   }
 
-  answer(answer: TimedView): void {
-    this.#here?.tools.follow();
-    this.#here?.plot.answer(answer);
-  }
-
-  markAutomatic(exponent: number): void {
-    this.#automatic = exponent;
-    this.#here?.plot.markAutomatic(exponent);
+  /** Called when other points have become visible. */
+  answer(): void {
+    this.#tools?.follow();
   }
 }
