@@ -4,7 +4,7 @@ import { make as makeRoom } from "../../www/samples/living-room.js";
 import { make as makeStreet } from "../../www/samples/street.js";
 import { TOLD } from "../../www/stories/stories.js";
 import { asciiPly, ball } from "./clouds.js";
-import { addressWritten, inNode, openPage, status, upToDate } from "./support.js";
+import { addressWritten, inNode, openPage, openReady, provoke, status, upToDate } from "./support.js";
 
 const says = (page: Page) => page.locator("#story p").textContent();
 
@@ -113,4 +113,18 @@ test("a story that does not exist is named", async () => {
   const page = await openPage("?story=fishing&sample=bunny");
   await upToDate(page);
   expect(await page.locator("#message p").textContent()).toMatch(/^The story in the address is not `?measure/);
+});
+
+test("if the cloud of a story cannot be had, a message says so and the story ends", async () => {
+  provoke(/ERR_FAILED/);
+  const page = await openReady("?sample=bunny");
+  await page.route("**/living-room-*.js", (route) => route.abort());
+  await page.evaluate(() => {
+    document.querySelector<HTMLElement>('[data-story="label"]')!.click();
+  });
+  await expect
+    .poll(() => page.locator("#message p").textContent())
+    .toBe("Room from inside, 300k could not be read: a part of this page could not be downloaded.");
+  expect(await page.locator("#story").count()).toBe(0);
+  expect((await addressWritten(page)).get("sample")).toBe("bunny");
 });

@@ -39,8 +39,12 @@ self.onmessage = async ({ data: request }: MessageEvent<LoadRequest>) => {
     const buffers = new Set(arrays.flatMap((array) => (array ? [array.buffer as ArrayBuffer] : [])));
     post({ kind: "cloud", prepared }, [...buffers]);
   } catch (error) {
-    const problem =
-      error instanceof LoadProblem ? error : new LoadProblem(`${request.name} could not be read: ${String(error)}.`);
+    const isMissing = error instanceof TypeError && error.message.includes("import");
+    const problem = isMissing
+      ? missingPart(request.name)
+      : error instanceof LoadProblem
+        ? error
+        : new LoadProblem(`${request.name} could not be read: ${String(error)}.`);
     post({ kind: "problem", sentence: problem.message, nonFinite: problem.nonFinite });
   }
 };
@@ -102,8 +106,6 @@ async function load(request: LoadRequest): Promise<LoadedCloud> {
   progress("Reading", null);
   const base = request.kind === "url" ? new URL(".", request.url).href : undefined;
   // Samples do not need it, and the first cloud is one.
-  const { readCloud } = await import("./read.ts").catch(() => {
-    throw missingPart(name);
-  });
+  const { readCloud } = await import("./read.ts");
   return check(await readCloud({ name, blob, limit, streamFrom, onProgress, onPoints, base }));
 }

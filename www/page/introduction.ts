@@ -24,7 +24,7 @@ export class Introduction {
     this.#going = introduces;
     if (!introduces) return;
     store.change({ compare: isCalm() ? MIDDLE : 1 });
-    for (const touch of ["pointerdown", "wheel", "keydown"]) {
+    for (const touch of ["pointerdown", "wheel", "keydown", "click"]) {
       document.addEventListener(touch, () => (this.#going = false), { once: true, capture: true, passive: true });
     }
   }

@@ -39,6 +39,9 @@ export function startSession(wishes: Wishes, first: Source): void {
   // Places in space belong to a cloud, and are set with the cloud.
   const store = new Store({ ...settings, freeze: null, lights: [] });
   const viewer = new Viewer(byId("view", HTMLCanvasElement), store, wishes.embed, coveredHeight);
+  new ResizeObserver(() => {
+    viewer.stage.refit();
+  }).observe(byId("verbs"));
   const turning = new Turning(viewer);
   const introduction = new Introduction(viewer, store, turning, wishes.isFirst);
   const panel = new Panel(viewer, store, settings, turning);
@@ -75,23 +78,32 @@ export function startSession(wishes: Wishes, first: Source): void {
   else void opening.open(first).then(() => introduction.begin(wishes.turns));
 }
 
-/** The gaps between and below the tools, in CSS pixels. */
-const AROUND_TOOLS = 28;
-
-/** The height at the bottom of the picture that the verbs or the tools cover, in CSS pixels. */
+/** The height at the bottom of the picture that the verbs or the tools cover, in CSS pixels. A corner does not count. */
 function coveredHeight(): number {
-  const tools = ["tool-card", "compare-card", "tool-bar"].reduce((sum, id) => sum + byId(id).offsetHeight, 0);
-  return Math.max(byId("verbs").offsetHeight, tools && tools + AROUND_TOOLS);
+  const { bottom, width } = byId("view").getBoundingClientRect();
+  const heights = ["verbs", "tool-card", "compare-card", "tool-bar"].map((id) => {
+    const box = byId(id).getBoundingClientRect();
+    return box.width > width / 2 ? bottom - box.top : 0;
+  });
+  return Math.max(0, ...heights);
 }
 
 /** The lesson, the judgment and the stories. Each is downloaded when it is asked for. */
 function bindLessons(viewer: Viewer, store: Store, storytelling: Storytelling, message: Message): void {
+  let isComing = false;
   const bind = (selector: string, what: string, show: (button: HTMLElement) => Promise<void>) => {
     for (const button of document.querySelectorAll<HTMLElement>(selector)) {
       button.addEventListener("click", () => {
-        show(button).catch((error: unknown) => {
-          message.show(sentenceOf(error, `${what} could not be shown`));
-        });
+        // The second click of a double click.
+        if (isComing) return;
+        isComing = true;
+        show(button)
+          .catch((error: unknown) => {
+            message.show(sentenceOf(error, `${what} could not be shown`));
+          })
+          .finally(() => {
+            isComing = false;
+          });
       });
     }
   };

@@ -78,21 +78,17 @@ export class Storytelling {
       const to = { ...USUAL_SETTINGS, ...opening.usual, theme, ...wishes.settings };
       // The line goes to its place after the marks are there.
       store.change({ ...to, compare: to.compare === null || compare === null ? to.compare : compare });
-      await this.#fly(wishes.view, wishes.target);
+      const { view, target } = wishes;
+      if (view && target) {
+        viewer.navigation.flyTo({ at: inLocal(viewer.cloud, view), target: inLocal(viewer.cloud, target) }, FLIGHT);
+      }
+      // The user's own move ends the flight, too.
+      while (viewer.navigation.isFlying && goes()) await nextFrame();
       if (!goes()) return;
       workshop.clear();
       await workshop.begin(search);
       if (to.compare !== null && goes()) await sweep(store, to.compare, goes);
     }
     while (!viewer.isFinal && goes()) await nextFrame();
-  }
-
-  #fly(view: ReturnType<typeof readAddress>["view"], target: ReturnType<typeof readAddress>["target"]): Promise<void> {
-    const { cloud, navigation } = this.#parts.viewer;
-    if (!cloud || !view || !target) return Promise.resolve();
-    const to = { at: inLocal(cloud, view), target: inLocal(cloud, target) };
-    return new Promise((resolve) => {
-      navigation.flyTo(to, resolve, FLIGHT);
-    });
   }
 }

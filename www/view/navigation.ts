@@ -78,11 +78,15 @@ export class Navigation {
   /** Flies back to a multiple of the distance from the target. `then` is called there, unless the user moves first. */
   goBack(factor: number, then: () => void): void {
     const away = this.#camera.position.clone().sub(this.target).multiplyScalar(factor);
-    this.flyTo({ at: away.add(this.target), target: this.target.clone() }, then);
+    this.flyTo({ at: away.add(this.target), target: this.target.clone() }, FLIGHT, then);
   }
 
-  /** `milliseconds`: how long it flies. */
-  flyTo(to: Flight["to"], then: () => void = () => undefined, milliseconds = FLIGHT): void {
+  get isFlying(): boolean {
+    return this.#flight !== null;
+  }
+
+  /** `then` is called there, unless the user moves first. */
+  flyTo(to: Flight["to"], milliseconds = FLIGHT, then: () => void = () => undefined): void {
     const flight: Flight = {
       from: { at: this.#camera.position.clone(), target: this.target.clone() },
       to,
@@ -92,8 +96,12 @@ export class Navigation {
     this.#flight = flight;
     const step = () => {
       if (this.#flight !== flight) return;
-      if (this.#fly(flight)) requestAnimationFrame(step);
-      else then();
+      if (this.#fly(flight)) {
+        requestAnimationFrame(step);
+      } else {
+        this.#flight = null;
+        then();
+      }
     };
     step();
   }

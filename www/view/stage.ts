@@ -161,7 +161,23 @@ export class Stage {
     this.#renderer.setPixelRatio(this.#ratio());
     this.#renderer.setSize(width, height, false);
     this.camera.aspect = width / height;
-    this.#free = Math.max(0.4, 1 - this.#covered() / height);
+    this.#free = this.#freeNow;
+    this.#fit();
+  }
+
+  get #freeNow(): number {
+    return Math.max(0.4, 1 - this.#covered() / this.#shape.height);
+  }
+
+  /** To be called when more of the picture is covered. What is covered for a moment changes nothing. */
+  refit(): void {
+    if (this.#freeNow >= this.#free) return;
+    this.#free = this.#freeNow;
+    this.#fit();
+  }
+
+  #fit(): void {
+    const { width, height } = this.#shape;
     // The middle of the free part is the middle of the picture.
     this.camera.setViewOffset(width, height, 0, ((1 - this.#free) * height) / 2, width, height);
     this.onResize();
