@@ -1,5 +1,4 @@
-// npm run figures: builds, then draws the paper's figures. It also writes the fidelity tables
-// to tests/figures and the accessibility report to docs. Arguments choose some of them.
+// npm run figures: builds, then draws the paper's figures. Arguments choose some of them.
 import { build } from "./build/build.js";
 import { command } from "./lib/command.js";
 import { runCompiled } from "./lib/compiled.js";

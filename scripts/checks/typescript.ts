@@ -11,7 +11,7 @@ export const typescriptChecks: Check[] = [
     needs: [BUILD],
     run: async () => {
       const outcomes: Outcome[] = [];
-      for (const project of [".", "www", "www/offline", "scripts", "tests/bench", "tests/figures"]) {
+      for (const project of [".", "www", "www/offline", "scripts", "tests/bench", "tests/fidelity", "tests/figures"]) {
         outcomes.push(await checkCommand("tsc", ["-p", project, "--noEmit"]));
       }
       return sum(outcomes);

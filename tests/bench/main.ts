@@ -5,7 +5,6 @@
 
 import { init } from "hidden-point-removal";
 
-import { fidelityTables } from "../fidelity/tables.js";
 import { CLOUDS, type Cloud } from "./clouds.js";
 import { timeDrafts } from "./drafts.js";
 import { describeMachine } from "./machine.js";
@@ -30,7 +29,6 @@ const sections: Record<Section, () => Table[] | Promise<Table[]>> = {
   sectors: () => [timeSectors()],
   octrees: async () => [await readOctrees()],
   page: async () => [await timePage()],
-  fidelity: () => fidelityTables(console.error),
 };
 const tables: Table[] = [];
 for (const section of options.sections) tables.push(...(await sections[section]()));

@@ -61,34 +61,6 @@ export const METHODS: Method[] = [
   Z_BUFFER,
 ];
 
-const DENOISED: VisibilityOptions = { denoise: 32, vote: 16 };
-
-/** The methods for a noisy cloud: the best rules, without and with the options against noise. */
-export const AGAINST_NOISE: Method[] = [
-  AUTOMATIC,
-  SEARCH,
-  one("exp(c/d), automatic c", exponential),
-  LOOKS,
-  one("automatic, denoise 32, vote 16", DENOISED),
-  one("antipodal search, denoise 32, vote 16", { radius: "search", ...DENOISED }),
-  one("exp(c/d), denoise 32, vote 16", { ...exponential, ...DENOISED }),
-  { ...one("three looks, denoise 32, vote 16", { looks: 3, ...DENOISED }), hulls: 3 },
-  several("at least 2 of 5, exp(c/d), denoise 32, vote 16", ({ cloud }, ring) =>
-    cloud.visibleFromAtLeast(2, ring, { ...exponential, ...DENOISED }),
-  ),
-];
-
-/** The methods for simulated lidar. There the best R of a view is not known. */
-export const FOR_LIDAR: Method[] = [
-  AUTOMATIC,
-  SEARCH,
-  one("exp(c/d), automatic c", exponential),
-  several("at least 2 of 5, exp(c/d)", ({ cloud }, ring) => cloud.visibleFromAtLeast(2, ring, exponential)),
-  TWO_LOOKS,
-  LOOKS,
-  Z_BUFFER,
-];
-
 export function one(name: string, options: VisibilityOptions): Method {
   return { name, hulls: 1, ask: ({ cloud, viewpoint }) => cloud.visibleFrom(viewpoint, options) };
 }

@@ -5,7 +5,7 @@ import { gunzipSync } from "node:zlib";
 
 import type { Mesh } from "../../www/samples/mesh.js";
 import { bunny36k, type Cloud, dragon, sharedFile } from "../bench/clouds.js";
-import { direction, seeded } from "../bench/generators.js";
+import { direction } from "../bench/generators.js";
 import type { Point } from "../bench/measure.js";
 import { bounds } from "../bench/views.js";
 import { later } from "./later.js";
@@ -59,19 +59,6 @@ export function* scanned(): Generator<Labelled> {
       }),
     };
   }
-}
-
-/** The same cloud with Gaussian noise on every coordinate. Its standard deviation is this share of the box's diagonal. */
-export function noisy({ name, positions, views }: Labelled, share: number, seed: number): Labelled {
-  const deviation = share * 2 * bounds({ positions }).radius;
-  const random = seeded(seed);
-  // The Box–Muller transform from uniform to normal numbers.
-  const normal = () => Math.sqrt(-2 * Math.log(1 - random())) * Math.cos(2 * Math.PI * random());
-  return {
-    name: `${name}, ${100 * share} % noise`,
-    positions: Float64Array.from(positions, (x) => x + deviation * normal()),
-    views: views.map(({ viewpoint, seen }) => ({ viewpoint, seen })),
-  };
 }
 
 /** Random points on generated surfaces, at several densities, even and uneven. */

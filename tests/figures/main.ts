@@ -1,4 +1,4 @@
-// npm run figures: the paper's figures, drawn by the demo page, and the fidelity tables.
+// npm run figures: the paper's figures, drawn by the demo page.
 // Names after `--` choose some of them.
 import { existsSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
@@ -8,7 +8,6 @@ import { init } from "hidden-point-removal";
 import { root } from "../root.js";
 import { beforeAfter } from "./before-after.js";
 import { errorPlot } from "./error-plot.js";
-import { fidelityText } from "./fidelity.js";
 import type { Figure, Maker } from "./figure.js";
 import { halo } from "./halo.js";
 import { radius } from "./radius.js";
@@ -25,11 +24,9 @@ const MAKERS: Record<string, Maker> = {
   reconstruction,
   shadows,
 };
-/** Documents that are written, not drawn. */
-const FIDELITY = "fidelity";
 const FOLDER = join(root, "tests", "figures");
 
-const ALL = [...Object.keys(MAKERS), FIDELITY];
+const ALL = Object.keys(MAKERS);
 const names = process.argv.length > 2 ? process.argv.slice(2) : ALL;
 const unknown = names.find((name) => !ALL.includes(name));
 if (unknown !== undefined) {
@@ -37,19 +34,9 @@ if (unknown !== undefined) {
   process.exit(2);
 }
 await init();
-await draw(names.filter((name) => name in MAKERS));
-if (names.includes(FIDELITY)) await measureFidelity();
-async function measureFidelity(): Promise<void> {
-  const text = await fidelityText(console.error);
-  if (text === undefined) {
-    console.error("FIDELITY.md is left as it is. `npm run bench -- --fidelity` scores what is there.");
-  } else {
-    write("FIDELITY.md", text);
-  }
-}
+await draw(names);
 
 async function draw(chosen: string[]): Promise<void> {
-  if (chosen.length === 0) return;
   await withStudio(async (studio) => {
     for (const name of chosen) {
       console.error(`Drawing ${name}…`);
