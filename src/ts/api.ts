@@ -4,13 +4,7 @@ export { hiddenPointRemoval, PointCloud } from "./cloud/cloud.js";
 export type { InitInput, SyncInitInput, WasmModule } from "./instance/compile.js";
 export { type Addresses, configure } from "./instance/configure.js";
 export { HprError, type HprErrorCode } from "./base/errors.js";
-export {
-  permissibleCurvature,
-  radiusBound,
-  type RingOptions,
-  ringOfViewpoints,
-  simdEnabled,
-} from "./cloud/formulas.js";
+export { permissibleCurvature, radiusBound, type RingOptions, ringOfViewpoints } from "./cloud/formulas.js";
 export { Horizon } from "./cloud/horizon.js";
 export { transfer } from "./cloud/transfer.js";
 export type { TransferImage } from "./query/images.js";

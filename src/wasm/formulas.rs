@@ -35,9 +35,3 @@ pub fn curvature(radius: f64, r: f64, beta: f64) -> Result<f64, JsValue> {
 pub fn bound(thickness: f64, distance: f64, spacing: f64) -> Result<f64, JsValue> {
     radius_bound(thickness, distance, spacing).map_err(refused)
 }
-
-/// Whether this build uses the 128-bit instructions.
-#[wasm_bindgen(js_name = simdEnabled)]
-pub fn simd_enabled() -> bool {
-    cfg!(target_feature = "simd128")
-}

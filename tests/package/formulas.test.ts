@@ -1,8 +1,8 @@
 import { describe, expect, it } from "vitest";
 
-import { freshPackage, problemOf, readyPackage, wasmBytes } from "./support";
+import { freshPackage, problemOf, readyPackage } from "./support";
 
-const { permissibleCurvature, radiusBound, simdEnabled, HprError } = await readyPackage();
+const { permissibleCurvature, radiusBound, HprError } = await readyPackage();
 const loose = (value: unknown) => value as never;
 
 describe("the paper's bounds", () => {
@@ -44,17 +44,9 @@ describe("the paper's bounds", () => {
   });
 });
 
-describe("simdEnabled", () => {
-  it("is the value that the binary reports", () => {
-    const features = Buffer.from(wasmBytes()).includes("simd128");
-    expect(simdEnabled()).toBe(features);
-  });
-});
-
 it("nothing answers before init() has resolved", async () => {
   const fresh = await freshPackage();
   const calls = [
-    () => fresh.simdEnabled(),
     () => fresh.radiusBound(1, 1, 1),
     () => fresh.permissibleCurvature(1, 1, 1),
     () => fresh.ringOfViewpoints([0, 0, 5], [0, 0, 0]),

@@ -68,16 +68,6 @@ export function radiusBound(thickness: number, distance: number, spacing: number
   return instance.call((bindings) => bindings.radiusBound(thickness, distance, spacing));
 }
 
-/**
- * Whether the wasm that is running uses 128-bit SIMD instructions. Answers are the same
- * either way.
- *
- * @throws HprError `not-initialised`.
- */
-export function simdEnabled(): boolean {
-  return requireInstance().call((bindings) => bindings.simdEnabled());
-}
-
 function checkNumbers(values: Record<string, unknown>): void {
   for (const [name, value] of Object.entries(values)) {
     if (value === undefined) {

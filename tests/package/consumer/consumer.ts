@@ -19,7 +19,6 @@ import {
   type ReconstructionOptions,
   type ResolvedInversion,
   ringOfViewpoints,
-  simdEnabled,
   type Visibility,
   type VisibilityOptions,
   type VisiblePart,
@@ -83,7 +82,7 @@ export async function everything(): Promise<HprErrorCode | undefined> {
       cloud.visibleFromDirection([0, 0, -1]).count,
       cloud.autoRadius([0, 0, 5], "opposite").radius,
     );
-    console.log(permissibleCurvature(100, 5, 1), radiusBound(1, 2, 0.1), simdEnabled());
+    console.log(permissibleCurvature(100, 5, 1), radiusBound(1, 2, 0.1));
     new PointCloud(new Float32Array(4), { dimension: 2 }).dispose();
 
     const controller = new AbortController();
