@@ -14,7 +14,7 @@ function onTheWire(name: string): number {
   return /\.avif$/.test(name) ? bytes.length : gzipSync(bytes, { level: 9 }).length;
 }
 
-test("the download for the first cloud, with three.js, wasm and workers, is at most 348 kB", async () => {
+test("the download for the first cloud, with three.js, wasm and workers, is at most 340 kB", async () => {
   const context = await browser.newContext({ serviceWorkers: "block" });
   const page = await context.newPage();
   // The time of the first answer. The first cloud does not wait for later requests.
@@ -49,8 +49,8 @@ test("the download for the first cloud, with three.js, wasm and workers, is at m
   console.log(`${total} bytes before the first cloud is on screen`);
   expect(new Set(asked).size).toBe(asked.length);
   expect(asked.some((name) => name.endsWith(".wasm"))).toBe(true);
-  // 165 kB of it are the wasm, 91 kB are three.js.
-  expect(total).toBeLessThanOrEqual(348_000);
+  // 158 kB of it are the wasm, 91 kB are three.js.
+  expect(total).toBeLessThanOrEqual(340_000);
   await context.close();
 });
 

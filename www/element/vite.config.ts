@@ -2,6 +2,7 @@ import { fileURLToPath } from "node:url";
 import { defineConfig } from "vite";
 import { COMMON } from "../build/common.ts";
 import { declarations } from "../build/declarations-plugin.ts";
+import { three } from "../build/three-plugin.ts";
 
 const here = (path: string) => fileURLToPath(new URL(path, import.meta.url));
 const NAME = "hidden-point-cloud";
@@ -24,5 +25,5 @@ export default defineConfig({
       output: { entryFileNames: "[name].js" },
     },
   },
-  plugins: [declarations(here("api.ts"), `${NAME}.d.ts`)],
+  plugins: [three(), declarations(here("api.ts"), `${NAME}.d.ts`)],
 });
