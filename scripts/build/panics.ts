@@ -3,10 +3,10 @@ import { functionNames, HEADER, Reader, SECTION, sectionsOf } from "../lib/wasm-
 /**
  * Functions that a module never needs to run: those that a failed check calls, those that word its message, and those
  * by which JavaScript would call closures of Rust, of which there are none. A module keeps the last two because their
- * numbers are in its table.
+ * numbers are in its table. Failed checks also have the names that rustc gives them, in a module without glue.
  */
 const NEEDLESS =
-  /\bpanicking::(panic\b|panic_fmt|panic_bounds_check|panic_const|panic_with_hook|assert_failed)|::panic_already_|::panic_access_error|\bfmt::|::closures::_::invoke|js_sys::futures/;
+  /\bpanicking::(panic\b|panic_fmt|panic_bounds_check|panic_const|panic_with_hook|assert_failed)|::panic_already_|::panic_access_error|\bfmt::|::closures::_::invoke|js_sys::futures|9panicking(5panic$|9panic_fmt|18panic_bounds_check|11panic_const|15panic_with_hook|13assert_failed)/;
 
 /** No local variables, then `unreachable` and `end`. */
 const TRAP = Uint8Array.of(0, 0x00, 0x0b);

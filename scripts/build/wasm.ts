@@ -34,7 +34,7 @@ export async function buildWasm(): Promise<void> {
       "scripts/build/panics.ts",
       "package-lock.json",
     ],
-    ignore: ["src/ts", "tools/wasm/target"],
+    ignore: ["src/ts", "src/e57", "tools/wasm/target"],
     outputs: Object.keys(MODULES).flatMap((folder) => GLUE.map((file) => `src/ts/${folder}/${file}`)),
   };
   const result = await unlessUnchanged(work, async () => {
@@ -63,7 +63,7 @@ async function buildModule(folder: string, options: string[]): Promise<void> {
   ];
   const out = inRoot("target/wasm-pack", folder);
   args.push("--out-dir", out, "--out-name", "hpr", "--", "--locked", ...options);
-  await mustRun("wasm-pack", args, FAILED, { env: { ...LEVEL, RUSTFLAGS: await flags() } });
+  await mustRun("wasm-pack", args, FAILED, { env: { ...LEVEL, RUSTFLAGS: await wasmFlags() } });
   await optimize(join(out, "hpr_bg.wasm"), FAILED);
   mkdirSync(inRoot("src/ts", folder), { recursive: true });
   for (const file of GLUE) {
@@ -82,7 +82,7 @@ async function buildModule(folder: string, options: string[]): Promise<void> {
 const SMALL = "-Cllvm-args=-inline-threshold=5";
 
 /** Flags for rustc. The wasm contains the paths of crates. The flags make them, and so the bytes, equal everywhere. */
-async function flags(): Promise<string> {
+export async function wasmFlags(): Promise<string> {
   await mustRun("cargo", ["fetch", "--locked", "--target", WASM_TARGET], FAILED);
   const sources = join(process.env["CARGO_HOME"] ?? join(homedir(), ".cargo"), "registry", "src");
   const registries = existsSync(sources) ? readdirSync(sources) : [];

@@ -1,5 +1,6 @@
 import { dirname } from "node:path";
 
+import { inRoot } from "../lib/paths.js";
 import { Problem, run } from "../lib/run.js";
 import { WASM_TARGET } from "../setup/rust.js";
 import type { Component } from "./component.js";
@@ -19,9 +20,14 @@ interface CratePackage {
   targets: { kind: string[] }[];
 }
 
-/** The crates from which the wasm is compiled. Programs that only run during the compilation do not count. */
+/** The crates from which the modules are compiled. Programs that only run during the compilation do not count. */
 export async function cratesOfWasm(): Promise<Component[]> {
-  const { packages, resolve } = await metadata();
+  const found = [...(await cratesOf("Cargo.toml", ["--features", "wasm"])), ...(await cratesOf("src/e57/Cargo.toml"))];
+  return [...new Map(found.map((crate) => [crate.name, crate])).values()];
+}
+
+async function cratesOf(manifest: string, options: string[] = []): Promise<Component[]> {
+  const { packages, resolve } = await metadata(manifest, options);
   const byId = new Map(packages.map((one) => [one.id, one]));
   const depsOf = new Map(resolve.nodes.map(({ id, deps }) => [id, deps]));
   const found = new Set<string>();
@@ -44,9 +50,9 @@ export async function cratesOfWasm(): Promise<Component[]> {
     }));
 }
 
-async function metadata(): Promise<Metadata> {
-  const features = ["--features", "wasm", "--filter-platform", WASM_TARGET];
-  const args = ["metadata", "--format-version", "1", "--locked", ...features];
+async function metadata(manifest: string, options: string[]): Promise<Metadata> {
+  const where = ["--manifest-path", inRoot(manifest), ...options, "--filter-platform", WASM_TARGET];
+  const args = ["metadata", "--format-version", "1", "--locked", ...where];
   const { ok, output } = await run("cargo", args, { show: "nothing" });
   const json = output.split("\n").find((line) => line.startsWith("{"));
   if (!ok || json === undefined) throw new Problem(`cargo metadata failed: ${output}`);

@@ -18,11 +18,11 @@ export function thirdPartyText({ crates, modules }: Awaited<ReturnType<typeof sh
 
 Written by \`npm run licenses\`; \`npm test -- supply\` checks that it is current.
 
-The crate holds no code of others. The npm package depends on no other package; its \`.wasm\` is compiled
+The crate holds no code of others. The npm package depends on no other package; its \`.wasm\` files are compiled
 from these crates and from Rust's own \`core\`, \`alloc\` and \`std\` (MIT OR Apache-2.0). Adapters use the viewer
 that their user installed.
 
-## In the \`.wasm\`
+## In the \`.wasm\` files
 
 ${table(crates)}
 ## In the demo page and the element

@@ -1,5 +1,6 @@
 // Areas and profiles between clicked points, and files that the page does not read.
 import { readFileSync } from "node:fs";
+import { join } from "node:path";
 import { expect, test } from "vitest";
 import { at, clickPoint, everything, lonely, openBall, tool, visible } from "./ball.js";
 import { openReady, reached } from "./support.js";
@@ -73,10 +74,13 @@ test("a profile has the points in a strip between two points, drawn and saved", 
   );
 });
 
-test("an E57 file is refused with the reader that was tried and the way out", async () => {
+test("an E57 file is opened, and a damaged one is refused", async () => {
   const page = await openReady("?sample=bunny");
-  await page
-    .locator("#file")
-    .setInputFiles({ name: "scan.e57", mimeType: "", buffer: Buffer.from("ASTM-E57\u0001\u0000\u0000\u0000") });
-  expect((await reached(page, "error")).sentence).toMatch(/E57.*web-e57.*pdal translate scan\.e57 cloud\.laz/);
+  const buffer = readFileSync(join(import.meta.dirname, "fixtures/two-scans.e57"));
+  const open = (name: string, content: Buffer) =>
+    page.locator("#file").setInputFiles({ name, mimeType: "", buffer: content });
+  await open("broken.e57", buffer.subarray(0, 5000));
+  expect((await reached(page, "error")).sentence).toMatch(/^broken\.e57 cannot be read: .*truncated.*near byte 0/);
+  await open("scans.e57", buffer);
+  await page.waitForFunction(() => document.querySelector("#status")?.getAttribute("data-total") === "44");
 });

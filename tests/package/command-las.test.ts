@@ -142,7 +142,7 @@ describe("a LAS file that cannot be read", () => {
     }
   });
 
-  it("LAZ is not written, E57 is not read, and columns cannot be chosen", () => {
+  it("LAZ is not written, and columns cannot be chosen", () => {
     write("ball.laz", laz);
     const refused = (...args: string[]) => {
       const { stderr, status } = run(...args);
@@ -150,10 +150,8 @@ describe("a LAS file that cannot be read", () => {
       return stderr;
     };
     expect(refused("ball.laz", "--from", "0,0,5", "-o", "out.laz")).toMatch(
-      /out\.laz must end with \.las: such points are read from \.laz, but not written/,
+      /out\.laz must end with \.las, \.ply: points of ball\.laz are not written to \.laz/,
     );
-    expect(refused("ball.laz", "--from", "0,0,5", "-o", "out.ply")).toMatch(/out\.ply must end with \.las, since/);
-    expect(refused("scan.e57", "--from", "0,0,5", "-o", "out.las")).toMatch(/web-e57 was tried.*pdal translate/);
     expect(refused("ball.laz", "--from", "0,0,5", "-o", "out.las", "--columns", "1,2,3")).toMatch(/no meaning/);
   });
 });

@@ -239,7 +239,7 @@ describe("combinations without a meaning", () => {
     [[...FROM, "-o", "{name}.xyz"], /\{name\} in the name of the output needs --viewpoints/],
     [[...FROM, "--format", "points", "-o", "never.idx"], /must end with \.xyz, \.txt, \.csv, \.pts/],
     [[...FROM, "--format", "faces"], /--format needs one of points, indices, mask/],
-    [[...FROM, "-o", "never.las"], /never\.las must end with \.xyz, .* formats are not converted/],
+    [[...FROM, "-o", "never.pcd"], /never\.pcd must end with \.xyz, .*: points of in\.xyz are not written to \.pcd/],
     [[...FROM, "--radius", "-3"], /--radius needs a number above 0/],
     [[...FROM, "--inversion", "power:1"], /--inversion needs/],
     [[...FROM, "--inversion", "exponential"], /--inversion needs/],

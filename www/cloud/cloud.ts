@@ -1,8 +1,9 @@
 import type { Field, FileFacts } from "./facts.ts";
 import type { Up } from "../../src/ts/formats/axes.js";
+import type { FileStation } from "../../src/ts/formats/cloud-file.js";
 import type { Values } from "../../src/ts/formats/numbers.js";
 
-export type { Up, Values };
+export type { FileStation, Up, Values };
 
 /** A number for each point, for example its intensity, its class or its time. */
 export interface Attribute {
@@ -34,8 +35,8 @@ export interface LoadedCloud {
   notes?: string[];
   /** The octree of which these are the coarser levels, if the others are read when they are needed. */
   streamed?: Streamed;
-  /** How the cloud was measured, if the file says so: the direction that was up, and the place of the scanner. */
-  taken?: { up: Up; from?: [number, number, number] };
+  /** How the cloud was measured, if the file says so: the direction that was up, and the places of the scanner. */
+  taken?: { up?: Up; stations?: FileStation[] };
 }
 
 /** An octree that is too large to be read as a whole. */

@@ -3,6 +3,7 @@ import type { LasSource } from "../../src/ts/formats/las/details.js";
 import type { Values } from "../../src/ts/formats/numbers.js";
 
 export type { Crs, LasSource, Unit };
+export { valueAt } from "../../src/ts/formats/column.js";
 
 /** A column of the file: a number for each point, or a single number that all points share. */
 export interface Field {
@@ -20,9 +21,4 @@ export interface FileFacts {
   las?: LasSource;
   /** How many columns of the file are not kept, because they would take too much memory. */
   dropped?: number;
-}
-
-/** A point's number in a column. */
-export function valueAt({ values }: Pick<Field, "values">, index: number): number {
-  return values[values.length === 1 ? 0 : index]!;
 }

@@ -15,7 +15,7 @@ const MOST_DECIMALS = 12;
 
 /** What the page keeps of a file. */
 export function loaded(name: string, file: CloudFile): LoadedCloud {
-  const { positions, notes, axes, areAxesPlain, isGrid, isMesh, up, from, crs, las } = file;
+  const { positions, notes, axes, areAxesPlain, isGrid, isMesh, up, stations, crs, las } = file;
   const { facts, ...known } = attributesOf(file);
   return {
     positions,
@@ -24,7 +24,7 @@ export function loaded(name: string, file: CloudFile): LoadedCloud {
     notes: [...(axes !== undefined && areAxesPlain === false ? [`${name}: ${axes}.`] : []), ...notes.map(sentence)],
     ...(isGrid && { isGrid }),
     ...(isMesh !== undefined && { isMesh }),
-    ...(up && { taken: { up, ...(from && { from }) } }),
+    ...((up ?? stations) && { taken: { ...(up && { up }), ...(stations && { stations }) } }),
   };
 }
 

@@ -30,5 +30,6 @@ async function readBy(loading: Loading): Promise<LoadedCloud> {
     if (await isOctree(source.read)) return readCopc(loading, source.read, blob);
   }
   const lazPerf = async () => (await import("./las/perf.ts")).startLazPerf(name);
-  return loaded(name, await readFile({ ...loading, name, source, single: true, lazPerf }));
+  const e57 = async () => (await import("./e57.ts")).compileE57(name);
+  return loaded(name, await readFile({ ...loading, name, source, single: true, lazPerf, e57 }));
 }

@@ -115,7 +115,8 @@ export async function openCloud(
   own.against = against;
 
   const { fieldOfView: fov, up } = { ...usual, ...wished };
-  const taken = loaded.taken?.from ? { at: loaded.taken.from, target: null } : null;
+  const [station, ...stations] = loaded.taken?.stations ?? [];
+  const taken = station && stations.length === 0 ? { at: station.viewpoint, target: null } : null;
   const homeFrom = (asked: AskedView | null, whole?: boolean) => (upward: Up) => {
     const lens = { fov, ...place.shape() };
     const sameUp = upward === up;

@@ -1,5 +1,5 @@
 /** The files that can be opened, as people write their names. Each name is also the ending of such files. */
-export const FORMATS = ["LAS", "LAZ", "PLY", "PCD", "XYZ", "TXT", "CSV", "OBJ", "glTF", "GLB"] as const;
+export const FORMATS = ["LAS", "LAZ", "E57", "PTX", "PLY", "PCD", "XYZ", "TXT", "CSV", "OBJ", "glTF", "GLB"] as const;
 
 /** Other endings of such files: tables of numbers, mostly from scanners, and packed files. */
 export const OTHER_ENDINGS = ["PTS", "ASC", "GZ"] as const;

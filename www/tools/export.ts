@@ -4,7 +4,7 @@ import type { CloudName } from "../settings/address.ts";
 import { byId } from "../controls/dom.ts";
 import { Segmented } from "../controls/segmented.ts";
 import { coordinatesAt, indexInFile } from "./figures.ts";
-import { BATCH, copy, save, stemOf } from "./files.ts";
+import { BATCH, contentOf, copy, save, stemOf } from "./files.ts";
 import { pictureWithMarks } from "./picture.ts";
 import type { Bench, Tool } from "./tool.ts";
 
@@ -89,7 +89,7 @@ export class Export implements Tool {
   }
 
   async #ply(): Promise<Iterable<BlobPart>> {
-    const { plyFields, plyParts } = await import("./ply.ts");
+    const { plyParts } = await import("../../src/ts/formats/write/ply.js");
     const { cloud, positions, answer } = this.#bench.viewer.scene;
     const what = this.#what;
     const indices = this.#indices;
@@ -97,13 +97,14 @@ export class Export implements Tool {
       `${what.value === "visible" ? "Visible" : "Selected"} points: ${indices.length} of ${cloud.count}`,
       ...seenFrom(answer),
     ];
-    return plyParts({ positions, colors: cloud.colors, fields: plyFields(cloud), indices, comments });
+    return plyParts({ ...contentOf(cloud), positions, indices }, comments);
   }
 
   async #las(): Promise<Iterable<BlobPart>> {
-    const { lasParts } = await import("./las.ts");
+    const { lasParts } = await import("../../src/ts/formats/write/las.js");
     const { cloud, positions } = this.#bench.viewer.scene;
-    return lasParts({ cloud, positions, indices: this.#indices });
+    const { colors, fields, facts } = cloud;
+    return lasParts({ positions, colors, fields, indices: this.#indices }, facts.las);
   }
 
   *#json(): Iterable<BlobPart> {

@@ -1,5 +1,7 @@
-/** The number of points that are written together. This takes less time than a frame. */
-export const BATCH = 8192;
+import type { Cloud } from "../cloud/cloud.ts";
+import type { Content } from "../../src/ts/formats/write/content.js";
+
+export { BATCH } from "../../src/ts/formats/write/content.js";
 
 /** Joins pieces into a file that the browser saves. Between the pieces, the page continues to draw. */
 export async function save(name: string, parts: Iterable<BlobPart>): Promise<void> {
@@ -17,6 +19,11 @@ export async function save(name: string, parts: Iterable<BlobPart>): Promise<voi
   setTimeout(() => {
     URL.revokeObjectURL(link.href);
   }, 60_000);
+}
+
+/** The numbers of a cloud for a file. Its colors are in bytes, as most programs expect them. */
+export function contentOf({ colors, fields }: Cloud): Pick<Content, "colors" | "fields"> {
+  return { colors, fields: fields.filter(({ name }) => !colors || !/^(red|green|blue)$/.test(name)) };
 }
 
 /** The beginning of the name of a file that is saved: the name of the cloud, without its ending and without signs. */

@@ -1,4 +1,3 @@
-import { extname } from "node:path";
 import { parseArgs } from "node:util";
 
 import { HprError } from "../base/errors.js";
@@ -6,7 +5,7 @@ import type { ChosenColumns } from "../formats/axes.js";
 import { viewSettings, type VisibilityOptions } from "../query/view-options.js";
 import type { TransferOptions } from "../query/transfer.js";
 import { MAX_WORKERS } from "../worker/workers.js";
-import { FORMATS } from "./formats/formats.js";
+import { endingOf, FORMATS } from "./formats/formats.js";
 import { chosenFormat, type OutputFormat } from "./output-format.js";
 import {
   readColumns,
@@ -159,12 +158,7 @@ function joinedToNegative(args: string[]) {
 }
 
 function checkInput(input: string, hasColumns: boolean): void {
-  const ending = extname(input).toLowerCase();
-  if (ending === ".e57") {
-    throw new UsageProblem(
-      `${input}: no reader of E57 files runs in Node (web-e57 was tried); convert it first: pdal translate ${input} OUT.laz`,
-    );
-  }
+  const ending = endingOf(input);
   if (!Object.hasOwn(FORMATS, ending)) throw new UsageProblem(`${input} is none of ${Object.keys(FORMATS).join(", ")}`);
   if (hasColumns && !FORMATS[ending]!.hasColumns) {
     throw new UsageProblem(`--columns has no meaning for ${input}: the format says where x, y and z are`);

@@ -6,7 +6,8 @@ export const HELP = `Usage: hidden-point-removal IN --from X,Y,Z -o OUT [options
 Writes those points of a file that can be seen, or their indices, a mask, their pixels
 in an image, from how many places or by which cameras each point is seen, or its color.
 
-  IN                   a LAS, LAZ, COPC, PLY, PCD, XYZ, TXT, CSV or PTS file
+  IN                   a LAS, LAZ, COPC, E57, PTX, PLY, PCD, XYZ, TXT, CSV or PTS file,
+                       also packed (.gz)
   --columns X,Y,Z      which columns of IN are x, y and z: their names or numbers from 1
 
 From where (one of the four, in the coordinates of the file):
@@ -39,7 +40,7 @@ What to write:
                        name with {name} in it is one file for each; without, OUT holds what any
                        of them sees
   --coverage           with --viewpoints or --cameras: how many of them see each point
-  --format F           points (a file like IN), indices, mask, scores (with looks), pixels
+  --format F           points (a file like IN, or PLY or LAS), indices, mask, scores (with looks), pixels
                        (index, u, v, depth; with --camera), counts (with --coverage), colors
                        (with --images: a PLY file of all points with their colors and "seen", the
                        number of cameras; or a table) or vis (with --cameras: COLMAP's file of

@@ -1,7 +1,6 @@
 #!/usr/bin/env node
 // npx hidden-point-removal: filters a file of points.
 import { readFileSync } from "node:fs";
-import { extname } from "node:path";
 
 import { HprError } from "../base/errors.js";
 import { printable } from "../formats/problem.js";
@@ -10,8 +9,9 @@ import { NAME, readArguments, type Settings } from "./arguments.js";
 import { coloredPly } from "./colored.js";
 import { farNote } from "./far.js";
 import { readAs, writeWhole } from "./files.js";
-import { FORMATS, readPoints } from "./formats/formats.js";
-import { pointsWritten, type PointFile } from "./formats/point-file.js";
+import { converted, lost } from "./formats/convert.js";
+import { endingOf, FORMATS, readPoints, writtenAs } from "./formats/formats.js";
+import { pointsCopied, type PointFile } from "./formats/point-file.js";
 import { colmapVis } from "../files/cameras/vis.js";
 import { HELP } from "./help.js";
 import { numbersWritten } from "./numbers.js";
@@ -64,7 +64,7 @@ async function filter(settings: Settings, progress: Progress): Promise<string> {
   };
   const file = await readAs(input, onRead, (bytes) => {
     progress.show(0.2, "understanding");
-    return readPoints(FORMATS[extname(input).toLowerCase()]!, bytes, { chosen: columns, damaged });
+    return readPoints(FORMATS[endingOf(input)]!, bytes, { chosen: columns, damaged });
   });
   const note = farNote(file.positions, question);
   if (note !== undefined) {
@@ -76,19 +76,24 @@ async function filter(settings: Settings, progress: Progress): Promise<string> {
   const onAsked = (share: number, doing: string) => {
     progress.show(0.3 + 0.6 * share, doing);
   };
-  for await (const answer of ask(file, question, settings.workers, onAsked)) {
+  const written = settings.format === "points" ? writtenAs(input, settings.output) : undefined;
+  const isConverted = written?.isCopy === false;
+  // The workers take the positions away. Points in another format are made of them.
+  const asked = isConverted ? { ...file, positions: file.positions.slice() } : file;
+  for await (const answer of ask(asked, question, settings.workers, onAsked)) {
     await write(settings, file, answer);
     const from = answer.name === undefined ? "" : ` from ${answer.name}`;
     seen.push(`${answer.indices.length} of ${answer.length} points are visible${from}`);
     ({ skipped } = answer);
     if (answer.note !== undefined) say(`note: ${answer.note}`);
   }
+  const leftOut = isConverted ? lost(file, written.ending) : written ? (file.leftOut ?? []) : [];
   return [
     ...seen,
     ...file.notes,
     ...(file.axes === undefined ? [] : [file.axes]),
     ...(skipped > 0 ? [`${skipped} without a position`] : []),
-    ...(file.leftOut?.length && settings.format === "points" ? [`left out: ${file.leftOut.join(", ")}`] : []),
+    ...(leftOut.length > 0 ? [`left out: ${leftOut.join(", ")}`] : []),
   ].join("; ");
 }
 
@@ -126,8 +131,11 @@ async function write(settings: Settings, file: PointFile, answer: Answer): Promi
   await writeWhole(named(settings.output, answer.name), partsOf(settings, file, answer));
 }
 
-function partsOf({ output, format }: Settings, file: PointFile, answer: Answer): Iterable<Uint8Array> {
-  if (format === "points") return pointsWritten(file, answer.indices);
+function partsOf({ input, output, format }: Settings, file: PointFile, answer: Answer): Iterable<Uint8Array> {
+  if (format === "points") {
+    const { ending, isCopy } = writtenAs(input, output)!;
+    return isCopy ? pointsCopied(file, answer.indices) : converted(file, answer.indices, ending);
+  }
   if (format === "vis") return [colmapVis(answer.rows!)];
   const isTable = /\.(npy|csv|txt|idx|mask)$/i.test(output);
   if (format === "colors" && !isTable) return coloredPly(file.positions, answer.colors!);

@@ -1,6 +1,7 @@
 import { extname } from "node:path";
 
-import { FORMATS } from "./formats/formats.js";
+import { CONVERTED } from "./formats/convert.js";
+import { endingOf, FORMATS, writtenAs } from "./formats/formats.js";
 import { UsageProblem } from "./values.js";
 
 /** What the output holds. */
@@ -31,25 +32,22 @@ export function chosenFormat(
   if (given !== undefined && format === undefined) {
     throw new UsageProblem(`--format needs one of ${OUTPUT_FORMATS.join(", ")}, not ${given}`);
   }
-  const [is, wanted] = [input, output].map((name) => extname(name).toLowerCase()) as [string, string];
+  const [is, wanted] = [endingOf(input), extname(output).toLowerCase()];
   if (given === undefined && wanted === VIS && cameras && !images && !coverage) return "vis";
   if (images ? given === undefined : format === "colors" || format === "vis") {
     const endings = format === "vis" ? [VIS] : [".ply", ...TEXT, NUMPY];
     if (output === "-" || endings.includes(wanted)) return format ?? "colors";
     throw new UsageProblem(`${output} must end with ${endings.join(", ")} for ${format ?? "colors"}`);
   }
-  const isLike = FORMATS[is]!.written.includes(wanted);
+  const isLike = writtenAs(input, output) !== undefined;
   const chosen = format ?? (coverage ? "counts" : byEnding(wanted, isLike, output === "-", camera));
   if (output === "-") return chosen ?? "points";
   if (chosen === undefined || (chosen === "points" && !isLike)) {
-    const like = FORMATS[is]!.written.join(", ");
-    if (Object.hasOwn(FORMATS, wanted) && FORMATS[wanted] === FORMATS[is]) {
-      throw new UsageProblem(`${output} must end with ${like}: such points are read from ${wanted}, but not written`);
-    }
+    const like = [...new Set([...FORMATS[is]!.written, ...CONVERTED])].join(", ");
     throw new UsageProblem(
-      chosen === undefined
-        ? `${output} must end with ${like}, since formats are not converted; --format can name something else than points`
-        : `${output} must end with ${like}: points are written in the format of ${input}`,
+      Object.hasOwn(FORMATS, wanted)
+        ? `${output} must end with ${like}: points of ${input} are not written to ${wanted}`
+        : `${output} must end with ${like}${chosen === undefined ? "; --format can name something else than points" : ""}`,
     );
   }
   if (chosen !== "points" && ![...TEXT, NUMPY].includes(wanted)) {

@@ -6,6 +6,8 @@ import type { Crs, Unit } from "../formats/las/crs.js";
 import type { LazPerf } from "../formats/las/laz-perf.js";
 import type { Values } from "../formats/numbers.js";
 import { readFile } from "../formats/read.js";
+import { indicesByStation } from "../formats/stations.js";
+import { type Binary, compile, compiledOnce, compileOwn, type InitInput } from "../instance/compile.js";
 import { givenOptions } from "../query/options.js";
 import { abortError, BY_SIGNAL, readSignal } from "../worker/abort.js";
 import { type FileSource, refusal, sourceOf } from "./source-of.js";
@@ -28,6 +30,8 @@ export interface ReadOptions {
    * because the address of its wasm is theirs to know. Node finds it by itself.
    */
   lazPerf?: LazPerf | Promise<LazPerf> | undefined;
+  /** The wasm that reads E57, if the file that comes with the package cannot be found: its address or its bytes. */
+  e57?: InitInput | undefined;
 }
 
 /** A place from which points of a file were measured. */
@@ -55,19 +59,19 @@ export interface CloudData {
 }
 
 /**
- * Reads LAS, LAZ, COPC, PLY, PCD, tables (XYZ, TXT, CSV), OBJ and glTF. The first bytes show the format; if they do not,
- * the ending of the name does. Points keep the order of the file. A coordinate that a file does not have is NaN.
+ * Reads LAS, LAZ, COPC, E57, PTX, PLY, PCD, tables (XYZ, TXT, CSV), OBJ and glTF. The first bytes show the format; if they
+ * do not, the ending of the name does. Points keep the order of the file. A coordinate that a file does not have is NaN.
  *
  * @param source a Blob, an ArrayBuffer, a URL, or a string: a path in Node, an address in browsers
  * @throws HprError (as a rejection) `load` if the file cannot be read or contradicts itself; the message names the
  * line or the fault. `option` for a wrong source or option.
  */
 export async function readCloud(source: FileSource, options: ReadOptions = {}): Promise<CloudData> {
-  const { signal, chosen, onProgress, damaged, lazPerf } = readSettings(options);
+  const { signal, ...settings } = readSettings(options);
   if (signal?.aborted) throw abortError(BY_SIGNAL);
   const { close, ...named } = await sourceOf(source, signal);
   try {
-    return cloudData(await readFile({ ...named, chosen, damaged, onProgress, signal, lazPerf }));
+    return cloudData(await readFile({ ...named, ...settings, signal }));
   } catch (cause) {
     if (signal?.aborted) throw abortError(BY_SIGNAL);
     throw refusal(named.name, cause);
@@ -76,9 +80,21 @@ export async function readCloud(source: FileSource, options: ReadOptions = {}): 
   }
 }
 
+const binary: Binary = {
+  file: "e57.wasm",
+  wayOut:
+    "Serve e57.wasm (the package exports it as hidden-point-removal/e57.wasm) and pass its address or its bytes as the " +
+    "option e57 of readCloud (docs/FILES.md)",
+};
+
+/** Compiles the wasm that reads E57. The address is one literal expression, which bundlers look for. */
+export const compileE57 = compiledOnce(() =>
+  compileOwn(() => new URL("../formats/e57/e57.wasm", import.meta.url), binary),
+);
+
 function readSettings(options: unknown) {
-  const given = givenOptions(options, ["signal", "onProgress", "columns", "damaged", "lazPerf"]);
-  const { onProgress, columns, damaged = false, lazPerf } = given;
+  const given = givenOptions(options, ["signal", "onProgress", "columns", "damaged", "lazPerf", "e57"]);
+  const { onProgress, columns, damaged = false, lazPerf, e57 } = given;
   if (onProgress !== undefined && typeof onProgress !== "function") {
     throw new HprError("option", `onProgress must be a function, got ${describe(onProgress)}`);
   }
@@ -94,6 +110,7 @@ function readSettings(options: unknown) {
     chosen: columns === undefined ? undefined : chosenColumns(columns),
     damaged,
     lazPerf: lazPerf === undefined ? undefined : () => Promise.resolve(lazPerf as LazPerf | Promise<LazPerf>),
+    e57: e57 === undefined ? compileE57 : async () => await compile(e57 as InitInput, binary),
   };
 }
 
@@ -108,12 +125,13 @@ function chosenColumns(columns: unknown): Chosen {
 }
 
 function cloudData(file: CloudFile): CloudData {
-  const { positions, crs, from, packed, notes, axes, areAxesPlain } = file;
-  const count = positions.length / 3;
+  const { positions, crs, packed, notes, axes, areAxesPlain, stations = [] } = file;
   const channels = ["red", "green", "blue"].map((name) => file.columns.find((column) => column.name === name)?.values);
   const [red, green, blue] = channels;
   const colors = packed ?? (red && green && blue ? displayColors([red, green, blue]) : null);
   const unit = crs?.unit ?? file.unit;
+  const found = indicesByStation(file).map((indices, i) => ({ viewpoint: stations[i]!.viewpoint, indices }));
+  const measured = found.filter(({ indices }) => indices.length > 0);
   const said = [...notes, ...(axes !== undefined && areAxesPlain !== true ? [axes] : [])];
   return {
     positions,
@@ -121,7 +139,7 @@ function cloudData(file: CloudFile): CloudData {
     columns: named(file.columns),
     ...(crs && { crs }),
     ...(unit && { unit }),
-    ...(from && { stations: [{ viewpoint: from, indices: Uint32Array.from({ length: count }, (_, i) => i) }] }),
+    ...(measured.length > 0 && { stations: measured }),
     ...(said.length > 0 && { notes: said }),
   };
 }

@@ -3,7 +3,8 @@ import type { Column } from "./column.js";
 import { newValues, type Values } from "./numbers.js";
 import { FormatProblem } from "./problem.js";
 
-const FIRST_CAPACITY = 65_536;
+/** Memory is taken for so many numbers at first. A line of a table may have any number of columns. */
+const FIRST_NUMBERS = 1 << 20;
 /** Points are shown while they are read: the first ones, then so many at a time, but not more than the last number. */
 const FIRST_SHOWN = 10_000;
 const NEXT_SHOWN = 150_000;
@@ -44,7 +45,7 @@ export class CloudBuilder {
     this.#onPoints = onPoints;
     this.#columns = columns;
     if (expected !== null) this.#step = Math.max(1, Math.ceil(expected / limit));
-    this.#capacity = Math.max(1, Math.min(FIRST_CAPACITY, limit));
+    this.#capacity = Math.max(1, Math.min(Math.floor(FIRST_NUMBERS / (3 + columns.length)), limit));
     this.#positions = newValues(precision, 3 * this.#capacity) as Float32Array<ArrayBuffer> | Float64Array<ArrayBuffer>;
     this.values = columns.map(({ type }) => newValues(type, this.#capacity));
   }
@@ -71,7 +72,7 @@ export class CloudBuilder {
   /** Says where the bytes of a point are. */
   place(index: number, start: number, end: number): void {
     if (2 * index + 2 > this.#places.length) {
-      this.#places = grown(this.#places, Math.max(2 * FIRST_CAPACITY, 2 * this.#places.length));
+      this.#places = grown(this.#places, Math.max(FIRST_NUMBERS / 8, 2 * this.#places.length));
     }
     this.#places[2 * index] = start;
     this.#places[2 * index + 1] = end;

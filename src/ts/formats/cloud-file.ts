@@ -6,6 +6,14 @@ import type { LazPerf } from "./las/laz-perf.js";
 import type { FilledColumn } from "./column.js";
 import type { Source } from "./source.js";
 
+export type Place = [x: number, y: number, z: number];
+
+/** A place from which points of a file were measured. */
+export interface FileStation {
+  name: string;
+  viewpoint: Place;
+}
+
 /** A file to read, and how. */
 export interface Reading {
   source: Source;
@@ -25,6 +33,8 @@ export interface Reading {
   base?: string | undefined;
   /** Starts the LAZ decoder. */
   lazPerf?: (() => Promise<LazPerf>) | undefined;
+  /** Compiles the wasm that reads E57. */
+  e57?: (() => Promise<WebAssembly.Module>) | undefined;
   signal?: AbortSignal | undefined;
   /** The progress from 0 to 1. */
   onProgress?: ((fraction: number) => void) | undefined;
@@ -49,6 +59,8 @@ export interface CloudFile {
   packed?: Uint8Array<ArrayBuffer>;
   /** The number of points in the file. */
   rows: number;
+  /** The names of columns that are no single numbers, and so not among the others. */
+  unread?: string[];
   /** Sentences without a period that a user has to read. */
   notes: string[];
   /** In words: which columns are x, y and z, if their names do not say so. */
@@ -60,8 +72,8 @@ export interface CloudFile {
   /** Whether the file has faces, and the positions are all of its vertices in the order of the file. */
   isMesh?: boolean;
   up?: Up;
-  /** The place from which all points were measured. */
-  from?: [number, number, number];
+  /** The places from which the points were measured. If there are several, a column `SCAN` says which. */
+  stations?: FileStation[];
   crs?: Crs | undefined;
   /** The unit of its format. */
   unit?: Unit;

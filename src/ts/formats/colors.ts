@@ -1,3 +1,4 @@
+import type { FilledColumn } from "./column.js";
 import type { Values } from "./numbers.js";
 
 /**
@@ -25,4 +26,15 @@ export function displayScale(channels: readonly Values[]): number {
   }
   if (largest === 0) return 0;
   return channels[0] instanceof Uint8Array ? 1 : largest <= 1 ? 255 : largest > 255 ? 255 / 65535 : 1;
+}
+
+/** The colors in bytes, if bytes hold all that the columns say. */
+export function byteColors(columns: readonly FilledColumn[]): Uint8Array<ArrayBuffer> | null {
+  const channels = ["red", "green", "blue"].map((color) => columns.find(({ name }) => name === color)?.values);
+  const scale = channels[0] instanceof Uint8Array ? 1 : 257;
+  const Type = scale === 1 ? Uint8Array : Uint16Array;
+  if (!channels.every((values) => values instanceof Type && values.every((value) => value % scale === 0))) return null;
+  const colors = new Uint8Array(3 * channels[0]!.length);
+  for (let i = 0; i < colors.length; i++) colors[i] = channels[i % 3]![Math.floor(i / 3)]! / scale;
+  return colors;
 }

@@ -13,3 +13,8 @@ export interface Column {
 export interface FilledColumn extends Omit<Column, "type"> {
   values: Values;
 }
+
+/** A point's number in a column. If all points have the same, a column may hold it once. */
+export function valueAt({ values }: Pick<FilledColumn, "values">, index: number): number {
+  return values[values.length === 1 ? 0 : index]!;
+}

@@ -1,9 +1,9 @@
-import type { CloudFile, Reading } from "./cloud-file.js";
+import type { CloudFile, Place, Reading } from "./cloud-file.js";
 import type { FilledColumn } from "./column.js";
 import { bytesOf, type NumberType } from "./numbers.js";
 import { LONGEST_PCD_HEADER, type PcdHeader, readPcdHeader, unpackPcd } from "./pcd.js";
 import { checkEnd, endOfRows, otherColumns, readBinaryRows, readTextRows } from "./read-rows.js";
-import { fieldsSaid, type Group, rowBytes } from "./rows.js";
+import { fieldsSaid, type Group, listsIn, rowBytes } from "./rows.js";
 import { bytesSource, checkByteLength } from "./source.js";
 
 const COLOR = /^rgba?$/;
@@ -12,7 +12,12 @@ const COLOR = /^rgba?$/;
 export async function readPcd(reading: Reading): Promise<CloudFile> {
   const header = readPcdHeader(await reading.source.read(0, LONGEST_PCD_HEADER), reading.chosen);
   const cloud = await readPoints(reading, header);
-  return { ...withoutPacked(cloud), ...taken(header), axes: fieldsSaid(header.points.fields, header.axes) };
+  return {
+    ...withoutPacked(cloud),
+    ...taken(header),
+    unread: listsIn(header.points),
+    axes: fieldsSaid(header.points.fields, header.axes),
+  };
 }
 
 async function readPoints(reading: Reading, { data, points: group, axes, end, lines }: PcdHeader): Promise<CloudFile> {
@@ -68,8 +73,12 @@ function unpackedColors({ values }: FilledColumn): Uint8Array<ArrayBuffer> {
   return bytes;
 }
 
-/** The cloud of a depth camera, as rows and columns in the camera's coordinates: x to the right, y down, z ahead. */
-function taken({ height, viewpoint }: PcdHeader): Pick<CloudFile, "isGrid" | "up" | "from"> {
-  if (!(height > 1)) return {};
-  return { isGrid: true, up: "-y", from: viewpoint ? [...viewpoint] : [0, 0, 0] };
+/**
+ * The cloud of a depth camera, as rows and columns in the camera's coordinates: x to the right, y down, z ahead. Other
+ * clouds have a station if their header tells of one: programs write 0 0 0 into all files.
+ */
+function taken({ height, viewpoint = [0, 0, 0] }: PcdHeader): Pick<CloudFile, "isGrid" | "up" | "stations"> {
+  const stations = [{ name: "viewpoint", viewpoint: [...viewpoint] as Place }];
+  if (height > 1) return { isGrid: true, up: "-y", stations };
+  return viewpoint.some((value) => value !== 0) ? { stations } : {};
 }

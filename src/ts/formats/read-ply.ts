@@ -1,7 +1,7 @@
 import type { CloudFile, Reading } from "./cloud-file.js";
 import { LONGEST_PLY_HEADER, type PlyHeader, readPlyHeader } from "./ply.js";
 import { checkEnd, endOfRows, otherColumns, type Points, readBinaryRows, readTextRows } from "./read-rows.js";
-import { fieldsSaid } from "./rows.js";
+import { fieldsSaid, listsIn } from "./rows.js";
 
 /** Other names of colors in some files. */
 const NAMES: Record<string, string> = {
@@ -20,6 +20,7 @@ export async function readPly(reading: Reading): Promise<CloudFile> {
   const faces = elements.some((element) => element.name === "face" && element.count > 0);
   return {
     ...cloud,
+    unread: listsIn(vertices),
     axes: fieldsSaid(vertices.fields, axes),
     isMesh: faces && cloud.positions.length === 3 * vertices.count,
   };

@@ -46,7 +46,15 @@ export async function readTable(reading: Reading): Promise<CloudFile> {
   const layout = rows.layout!;
   // Colors after the position are a sure sign, too, so nothing needs to be said.
   const areAxesPlain = isPlain(layout) || (layout.names === undefined && others.some((other) => other.name === "red"));
-  return { ...builder!.finish(), axes: columnsSaid(layout), areAxesPlain };
+  const { width, axes, names } = layout;
+  const read = [...axes, ...others.map(({ column }) => column)];
+  const unread = Array.from({ length: width }, (_, column) => names?.written[column] ?? `column ${column + 1}`);
+  return {
+    ...builder!.finish(),
+    unread: unread.filter((_, column) => !read.includes(column)),
+    axes: columnsSaid(layout),
+    areAxesPlain,
+  };
 }
 
 /** The words of the first points. */

@@ -4,6 +4,7 @@ import { FormatProblem } from "./problem.js";
 import { readObj } from "./read-obj.js";
 import { readPcd } from "./read-pcd.js";
 import { readPly } from "./read-ply.js";
+import { readPtx } from "./read-ptx.js";
 import { readTable } from "./read-table.js";
 
 /** Reads a file. Its first bytes show its format. If they do not, the ending of its name is used. */
@@ -30,16 +31,13 @@ async function readBy(reading: Reading): Promise<CloudFile> {
     return (await import("./read-gltf.js")).readGltf(reading);
   }
   if (/^ply\s/.test(start)) return readPly(reading);
-  if (start.startsWith("ASTM-E57")) {
-    throw new FormatProblem(
-      `it is an E57 file: the one reader on npm, web-e57, was tried, and it gives all points as one text; convert it first, with CloudCompare or with “pdal translate ${name} cloud.laz”`,
-    );
-  }
+  if (start.startsWith("ASTM-E57")) return (await import("./e57/read-e57.js")).readE57(reading);
   // A comment of any file may mention PCD.
   if (/^(#\s*\.PCD\b|VERSION\s|FIELDS\s)/.test(start) || (ending === "pcd" && /^(VERSION|FIELDS)\s/im.test(start))) {
     return readPcd(reading);
   }
-  if (/^(ply|pcd|las|laz|gltf|glb)$/.test(ending)) {
+  if (ending === "ptx" || /^\d+\s*[\r\n]\s*\d+\s*[\r\n]/.test(start)) return readPtx(reading);
+  if (/^(ply|pcd|las|laz|gltf|glb|e57)$/.test(ending)) {
     const format = { gltf: "glTF", glb: "GLB" }[ending] ?? ending.toUpperCase();
     throw new FormatProblem(`it does not begin like a ${format} file`);
   }

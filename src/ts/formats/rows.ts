@@ -25,6 +25,13 @@ export function hasLists(fields: readonly Field[]): boolean {
   return fields.some(({ length }) => length !== undefined);
 }
 
+/** The names of the fields that are several numbers. */
+export function listsIn({ fields }: Group): string[] {
+  return fields.flatMap(({ name, count, length }) =>
+    (count > 1 || length !== undefined) && name !== "_" ? [name] : [],
+  );
+}
+
 /** The number of bytes of these fields in a binary row. For a list, only the bytes of its length are counted. */
 export function rowBytes(fields: readonly Field[]): number {
   return fields.reduce((sum, { type, count, length }) => sum + (length ? bytesOf(length) : count * bytesOf(type)), 0);

@@ -8,7 +8,7 @@ declare module "laz-perf/lib/worker/laz-perf.js" {
   export default createLazPerf;
 }
 
-declare module "laz-perf/lib/worker/laz-perf.wasm?url" {
+declare module "*.wasm?url" {
   const url: string;
   export default url;
 }

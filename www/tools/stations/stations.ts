@@ -2,12 +2,12 @@ import { OWN_COLORS, type Viewpoint } from "../../settings/settings.ts";
 import type { Store } from "../../settings/store.ts";
 import { STATION_COLORS } from "../../settings/table.ts";
 import { csvWord } from "../csv.ts";
-import { BATCH, save, stemOf } from "../files.ts";
+import { BATCH, contentOf, save, stemOf } from "../files.ts";
 import { coordinatesAt, indexInFile, measuresOf } from "../figures.ts";
 import type { Spot } from "../find.ts";
 import { indicesWhere } from "../indices.ts";
 import type { Mark } from "../marks.ts";
-import { plyFields, plyParts } from "../ply.ts";
+import { plyParts } from "../../../src/ts/formats/write/ply.js";
 import type { Bench, Tool } from "../tool.ts";
 import { candidatesOver } from "./candidates.ts";
 import { StationCard } from "./card.ts";
@@ -250,11 +250,14 @@ export class Stations implements Tool {
       );
       return;
     }
-    const fields = [...plyFields(cloud), { name: "stations", values: counts }];
+    const { colors, fields } = contentOf(cloud);
     const comments = this.#stations.map(
       ({ name, at }) => `Station ${name.replace(/[^\x20-\x7e]/g, "?")} ${at.join(" ")}`,
     );
-    await this.#save("seen-by-stations.ply", plyParts({ positions, colors: cloud.colors, fields, indices, comments }));
+    await this.#save(
+      "seen-by-stations.ply",
+      plyParts({ positions, colors, fields: [...fields, { name: "stations", values: counts }], indices }, comments),
+    );
   }
 
   async #save(ending: string, parts: Iterable<BlobPart>): Promise<void> {

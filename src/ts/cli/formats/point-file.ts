@@ -9,15 +9,15 @@ export interface PointFile extends CloudFile, Frame {
 export interface Frame {
   /** In words: the parts of the file that are lost when points are left out. */
   leftOut?: string[];
-  /** The header of a file with these points. */
-  header: (indices: Uint32Array) => Uint8Array;
+  /** The header of a file with these points. Formats without one are not written. */
+  header?: (indices: Uint32Array) => Uint8Array;
   /** The bytes after the points. */
   footer?: Uint8Array;
 }
 
 /** The file with only these points, in their order. Their bytes are copied unchanged. */
-export function* pointsWritten({ header, records, footer }: PointFile, indices: Uint32Array): Generator<Uint8Array> {
-  yield header(indices);
+export function* pointsCopied({ header, records, footer }: PointFile, indices: Uint32Array): Generator<Uint8Array> {
+  yield header!(indices);
   let at = 0;
   while (at < indices.length) {
     const first = indices[at++]!;

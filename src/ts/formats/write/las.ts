@@ -1,14 +1,8 @@
-import type { Cloud, Values } from "../cloud/cloud.ts";
-import { type Field, type LasSource, valueAt } from "../cloud/facts.ts";
-import { type FieldPlace, layoutOf } from "../../src/ts/formats/las/places.js";
-import { BATCH } from "./files.ts";
-
-/** The points that are written, with the file's own coordinates. */
-export interface LasContent {
-  cloud: Cloud;
-  positions: Float32Array | Float64Array;
-  indices: Uint32Array;
-}
+import { type FilledColumn as Field, valueAt } from "../column.js";
+import type { LasSource } from "../las/details.js";
+import { type FieldPlace, layoutOf } from "../las/places.js";
+import type { Values } from "../numbers.js";
+import { BATCH, type Content } from "./content.js";
 
 const HEAD = 375;
 const RECORD_HEAD = 54;
@@ -26,9 +20,9 @@ const EXTRA_CODES = new Map<unknown, number>([
 const SIZES = [0, 1, 1, 2, 2, 4, 4, 8, 8, 4, 8];
 /** Other names of the columns of LAS. */
 const NAMES: Readonly<Record<string, string>> = {
-  class: "classification", gps_time: "time", return_number: "return number", number_of_returns: "number of returns",
-  point_source: "point source", point_source_id: "point source", scan_angle: "scan angle", user_data: "user data",
+  class: "classification", "gps time": "time", "point source id": "point source",
 }; // prettier-ignore
+const OWN_NAMES = new Set([3, 8].flatMap((format) => layoutOf(format)!.places.map(({ name }) => name)));
 
 type Write = (view: DataView, at: number, index: number) => void;
 
@@ -43,15 +37,21 @@ interface Extra {
  * its points are the same to the bit. Other clouds get version 1.4 and as fine a scale as fits, and columns without a
  * place in LAS become extra columns.
  */
-export function* lasParts({ cloud, positions, indices }: LasContent): Generator<BlobPart> {
-  const { las } = cloud.facts;
-  const format = las ? (WITHOUT_WAVES[las.format] ?? las.format) : cloud.colors ? 7 : 6;
+export function* lasParts(
+  { positions, colors, fields, indices }: Content,
+  las?: LasSource,
+): Generator<Uint8Array<ArrayBuffer>> {
+  const format = las
+    ? (WITHOUT_WAVES[las.format] ?? las.format)
+    : colors || fields.some(({ name }) => name === "red")
+      ? 7
+      : 6;
   const layout = layoutOf(format)!;
-  const { scale, offset } = las ?? finestScale(cloud);
-  const named = new Map(cloud.fields.map((field) => [nameOf(field.name), field]));
+  const { scale, offset } = las ?? finestScale(positions);
+  const named = new Map(fields.map((field) => [nameOf(field.name), field]));
   const taken = new Set<string>();
   const writers = layout.places.flatMap((place): Write[] => {
-    const field = named.get(place.name) ?? colorField(cloud, place.name);
+    const field = named.get(place.name) ?? colorField(colors, place.name);
     if (!field || !fits(field.values, place)) return [];
     taken.add(place.name);
     return [writerOf(place, field)];
@@ -61,7 +61,7 @@ export function* lasParts({ cloud, positions, indices }: LasContent): Generator<
   const rowBytes = layout.bytes + extras.reduce((sum, { bytes }) => sum + bytes, 0);
 
   const records = [...(las?.records ?? []), ...(extras.length > 0 ? [extraRecord(extras)] : [])];
-  const counts = countsOf(cloud.fields, positions, indices, { scale, offset });
+  const counts = countsOf(fields, positions, indices, { scale, offset });
   yield headOf({ las, format, rowBytes, records, scale, offset, total: indices.length, ...counts });
   for (const record of records) yield record.slice();
   for (let from = 0; from < indices.length; from += BATCH) {
@@ -81,17 +81,17 @@ export function* lasParts({ cloud, positions, indices }: LasContent): Generator<
         next += bytes;
       }
     }
-    yield view;
+    yield new Uint8Array(view.buffer);
   }
 }
 
 function nameOf(name: string): string {
-  const lower = name.toLowerCase();
-  return NAMES[lower] ?? (/^(intensity|classification|time)$/.test(lower) ? lower : name);
+  const words = name.toLowerCase().replaceAll("_", " ");
+  return NAMES[words] ?? (OWN_NAMES.has(words) ? words : name);
 }
 
 /** Colors in bytes fill 16 bits, so that white stays white. */
-function colorField({ colors }: Cloud, name: string): Field | undefined {
+function colorField(colors: Content["colors"], name: string): Field | undefined {
   const channel = ["red", "green", "blue"].indexOf(name);
   if (!colors || channel < 0) return undefined;
   return { name, values: Uint16Array.from({ length: colors.length / 3 }, (_, i) => 257 * colors[3 * i + channel]!) };
@@ -180,9 +180,15 @@ function extraRecord(extras: readonly Extra[]): Uint8Array<ArrayBuffer> {
 }
 
 /** The finest scale with which the whole cloud fits, at most 10⁻⁹ of a unit. The offset is a whole number. */
-function finestScale({ center, size }: Cloud): Pick<LasSource, "scale" | "offset"> {
-  const offset = center.map(Math.floor) as [number, number, number];
-  const reach = Math.max(...size) / 2 + 1;
+export function finestScale(positions: Content["positions"]): Pick<LasSource, "scale" | "offset"> {
+  const low = [Infinity, Infinity, Infinity];
+  const high = [-Infinity, -Infinity, -Infinity];
+  positions.forEach((value: number, i: number) => {
+    if (value < low[i % 3]!) low[i % 3] = value;
+    if (value > high[i % 3]!) high[i % 3] = value;
+  });
+  const offset = low.map((value, axis) => Math.floor(value / 2 + high[axis]! / 2)) as [number, number, number];
+  const reach = Math.max(...low.map((value, axis) => high[axis]! - value)) / 2 + 1;
   const digits = Math.min(9, Math.floor(Math.log10(MOST_STEPS / reach)));
   // Written as a text, so that the scale is the number nearest to a power of ten.
   const step = Number(`1e${-digits}`);
@@ -202,7 +208,7 @@ interface Counts {
 
 function countsOf(
   fields: readonly Field[],
-  positions: LasContent["positions"],
+  positions: Content["positions"],
   indices: Uint32Array,
   { scale, offset }: Pick<LasSource, "scale" | "offset">,
 ): Counts {
