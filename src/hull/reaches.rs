@@ -52,7 +52,7 @@ impl Memory {
         for &(side, place) in &seen[1..] {
             sides[side].include(place);
         }
-        self.each_face_across(&seen, &mut |side, places, _| {
+        self.each_face(&seen, true, &mut |side, places, _| {
             places.iter().for_each(|&place| sides[side].include(place));
         });
         let Some((windows, cells_per_unit)) = grid(&sides, count) else {
@@ -64,34 +64,31 @@ impl Memory {
             cells_per_unit,
             heights: filled(corners, f64::INFINITY)?,
         };
-        for (side, place) in &mut seen {
-            *place = reaches.in_cells(*side, *place);
-        }
-        for (_, face) in self.hull.surface.alive() {
-            let [(a, p), (b, q), (c, r)] = face.vertices.map(|vertex| seen[vertex as usize]);
-            if a == b && a == c && !face.data.is_exact_only() {
-                reaches.fill(a, [p, q, r], &face.data);
-            }
-        }
-        self.each_face_across(&seen, &mut |side, places, plane| {
-            let places = places.map(|place| reaches.in_cells(side, place));
+        self.each_face(&seen, false, &mut |side, places, plane| {
             reaches.fill(side, places, plane);
         });
         Ok(Some(reaches))
     }
 
-    /// Passes each outer face with vertices on several sides of the cube, on each of them. `seen`: the
-    /// side of each vertex.
+    /// Passes each outer face on each side of the cube that it is on, or only those on several sides.
+    /// `seen`: the side and the place of each vertex.
     #[inline(never)]
-    fn each_face_across(
+    fn each_face(
         &self,
         seen: &[(usize, [f64; 2])],
+        across_only: bool,
         pass: &mut dyn FnMut(usize, Places, &Plane),
     ) {
         let hull = &self.hull;
         for (_, face) in hull.surface.alive() {
-            let [a, b, c] = face.vertices.map(|vertex| seen[vertex as usize].0);
-            if (a == b && a == c) || face.data.is_exact_only() {
+            let [(a, p), (b, q), (c, r)] = face.vertices.map(|vertex| seen[vertex as usize]);
+            if face.data.is_exact_only() {
+                continue;
+            }
+            if a == b && a == c {
+                if !across_only {
+                    pass(a, [p, q, r], &face.data);
+                }
                 continue;
             }
             let corners = face.vertices.map(|vertex| hull.vertices.at(vertex));
@@ -181,18 +178,12 @@ fn grid(sides: &[Side; 6], count: usize) -> Option<([Window; 6], f64)> {
 }
 
 impl Reaches {
-    /// A place on a side of the cube, in cells from its window's first corner.
-    #[inline]
-    fn in_cells(&self, side: usize, [x, y]: [f64; 2]) -> [f64; 2] {
-        let window = &self.windows[side];
-        let scale = self.cells_per_unit;
-        [(x - window.x) * scale, (y - window.y) * scale]
-    }
-
     /// Writes the height of each corner that is certainly inside a face.
-    #[inline(always)]
+    #[inline]
     fn fill(&mut self, side: usize, places: Places, plane: &Plane) {
         let window = self.windows[side];
+        let scale = self.cells_per_unit;
+        let places = places.map(|[x, y]| [(x - window.x) * scale, (y - window.y) * scale]);
         let [a, b, c] = places;
         let range = |axis: usize, last: usize| {
             let [a, b, c] = [a[axis], b[axis], c[axis]];
