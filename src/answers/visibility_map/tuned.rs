@@ -18,8 +18,9 @@ use crate::cloud::point_cloud::PointCloud;
 
 /// The looks at more points than this are taken at an even sample.
 const MOST: usize = 50_000;
-/// The share of the points shown by looks that a map may hide, from each of four viewpoints.
-const WRONG: f64 = 0.002;
+/// The share of the points shown by looks that a map may hide, from each of four viewpoints. From others
+/// it can be several times as large.
+const WRONG: f64 = 0.001;
 /// The largest factor of the scale, the least one, and the step between factors.
 const FACTORS: [f64; 2] = [16.0, 1.0 / 64.0];
 const STEP: f64 = 0.7;
