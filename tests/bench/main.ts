@@ -8,6 +8,7 @@ import { init } from "hidden-point-removal";
 import { CLOUDS, type Cloud } from "./clouds.js";
 import { timeDrafts } from "./drafts.js";
 import { describeMachine } from "./machine.js";
+import { timeMaps } from "./maps.js";
 import { readOctrees } from "./octrees.js";
 import { type BenchOptions, readOptions, type Section, USAGE } from "./options.js";
 import { timePage } from "./page.js";
@@ -25,6 +26,7 @@ const others = options.sections.has("speed") ? peers(options.peers) : [];
 const sections: Record<Section, () => Table[] | Promise<Table[]>> = {
   speed: () => timeQueries(chosenClouds(), others),
   drafts: () => [timeDrafts()],
+  maps: () => [timeMaps()],
   workers: async () => [await timeWorkers()],
   sectors: () => [timeSectors()],
   octrees: async () => [await readOctrees()],

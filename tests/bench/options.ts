@@ -8,6 +8,7 @@ export const USAGE = `npm run bench -- [WHAT…] [--clouds NAME,NAME…] [--peer
 WHAT, by default --speed, --drafts and --workers:
   --speed      cold queries, natively and in Node; three.js on the same flipped points
   --drafts     early answers and samples against cold ones
+  --maps       maps of directions against cold queries, along an orbit
   --workers    two workers against one, on a million points
   --sectors    the sectors of a view, one after another: what several cores would gain
   --octrees    the share of an octree that a view reads
@@ -19,7 +20,7 @@ WHAT, by default --speed, --drafts and --workers:
   --peers      also SciPy (Qhull), installed into target/ (needs Python 3 with pip)
   --json       prints JSON instead of tables`;
 
-const SECTIONS = ["speed", "drafts", "workers", "sectors", "octrees", "page"] as const;
+const SECTIONS = ["speed", "drafts", "maps", "workers", "sectors", "octrees", "page"] as const;
 export type Section = (typeof SECTIONS)[number];
 
 export interface BenchOptions {

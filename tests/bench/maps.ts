@@ -1,0 +1,91 @@
+// How long a map of directions takes, and the share of the hidden points that it hides, along an orbit.
+import { PointCloud, type VisibilityMapOptions } from "hidden-point-removal";
+
+import { WrongAnswer } from "./check.js";
+import { CLOUDS } from "./clouds.js";
+import { median, type Row, type Table } from "./report.js";
+import { bounds, orbit } from "./views.js";
+
+type Setting = [cloud: string, options: VisibilityMapOptions, angle?: number];
+
+const SETTINGS: Setting[] = [
+  ["dragon", { exponent: 3 }],
+  ["dragon", {}],
+  ["dragon", { looks: 3 }],
+  ["bumpy-1m", {}],
+  ["bumpy-3m", { exponent: 3 }],
+  ["room", {}],
+  ["room", {}, 60],
+];
+const DEGREES = 2;
+const STEPS = 9;
+
+/**
+ * Each view is asked cold and as a map, in turns. Maps follow the orbit from the first view on, which is not counted.
+ * With an angle, only the directions of a cone around the middle of the cloud count. Throws if a map of one hull
+ * hides a visible point.
+ */
+export function timeMaps(): Table {
+  const rows = SETTINGS.map(([name, options, angle]): Row => {
+    console.error(`${name}, ${JSON.stringify(options)}: maps…`);
+    const made = CLOUDS[name]!()!;
+    const cloud = new PointCloud(made.positions);
+    const at = orbit(made);
+    const { center } = bounds(made);
+    const times = { cold: [] as number[], map: [] as number[] };
+    const [shares, wrong]: [number[], number[]] = [[], []];
+    let first = 0;
+    for (let step = 0; step <= STEPS; step++) {
+      const viewpoint = at(DEGREES * step);
+      const direction = center.map((x, axis) => x - viewpoint[axis]!);
+      const towards = angle === undefined ? {} : { towards: { direction, angle } };
+      const map = timed(() => cloud.visibilityMap(viewpoint, { ...options, ...towards }));
+      if (step === 0) {
+        first = map.milliseconds;
+        continue;
+      }
+      const cold = timed(() => cloud.visibleFrom(viewpoint, options));
+      times.map.push(map.milliseconds);
+      times.cold.push(cold.milliseconds);
+      const hidden = map.answer.hides(made.positions);
+      const counts = { hidden: 0, found: 0, visible: 0, wrong: 0 };
+      cold.answer.mask().forEach((visible, i) => {
+        if (angle !== undefined && !isWithin(made.positions, i, viewpoint, direction, angle)) return;
+        counts[visible === 1 ? "visible" : "hidden"]++;
+        if (hidden[i] === 1) counts[visible === 1 ? "wrong" : "found"]++;
+      });
+      if (options.looks === undefined && counts.wrong > 0) throw new WrongAnswer(`${name}: a map hides visible points`);
+      shares.push(counts.found / counts.hidden);
+      wrong.push(counts.wrong / counts.visible);
+    }
+    cloud.dispose();
+    const [cold, map] = [median(times.cold), median(times.map)];
+    return {
+      cloud: angle === undefined ? name : `${name}, ${angle}°`,
+      radius: JSON.stringify(options),
+      "cold ms": cold,
+      "map ms": map,
+      "map ÷ cold": map / cold,
+      "first map ms": first,
+      "hidden found %": 100 * (shares.reduce((sum, share) => sum + share) / shares.length),
+      "least %": 100 * Math.min(...shares),
+      "wrong, worst %": 100 * Math.max(...wrong),
+    };
+  });
+  const note =
+    `Median milliseconds in Node, on one core; ${STEPS} views, ${DEGREES}° apart. "Wrong" can be above 0 only with ` +
+    "looks. With an angle, only a cone around the middle of the cloud counts.";
+  return { title: "Maps of directions", note, rows };
+}
+
+function isWithin(positions: ArrayLike<number>, i: number, viewpoint: number[], direction: number[], angle: number) {
+  const v = viewpoint.map((x, axis) => positions[3 * i + axis]! - x);
+  const dot = v.reduce((sum, x, axis) => sum + x * direction[axis]!, 0);
+  return dot >= Math.cos((angle * Math.PI) / 360) * Math.hypot(...v) * Math.hypot(...direction);
+}
+
+function timed<T>(work: () => T): { answer: T; milliseconds: number } {
+  const start = performance.now();
+  const answer = work();
+  return { answer, milliseconds: performance.now() - start };
+}
