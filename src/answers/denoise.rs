@@ -122,7 +122,7 @@ fn is_voted(point: usize, others: impl ExactSizeIterator<Item = u32>, visible: &
 }
 
 /// `p` projected on the least-squares plane of itself and `nearest`; `p` where that overflows.
-fn on_plane(p: [f64; 3], nearest: &Nearest, points: &Points) -> [f64; 3] {
+pub(crate) fn on_plane(p: [f64; 3], nearest: &Nearest, points: &Points) -> [f64; 3] {
     let p = DVec3::from_array(p);
     // Coordinates relative to p keep the detail of georeferenced clouds.
     let others = || {

@@ -11,7 +11,7 @@ pub(crate) mod part;
 pub(crate) mod plane;
 pub(crate) mod point_cloud;
 pub(crate) mod points;
-mod quadric;
+pub(crate) mod quadric;
 pub(crate) mod selection;
 pub(crate) mod sequence;
 pub(crate) mod spatial;

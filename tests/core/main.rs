@@ -20,6 +20,7 @@ mod inversions;
 mod looks;
 mod looks_along;
 mod looks_in_steps;
+mod looks_scanned;
 mod looks_thick;
 mod looks_uneven;
 mod maps;

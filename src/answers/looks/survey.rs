@@ -2,17 +2,25 @@
 //!
 //! The noise of a sensor is everywhere. Points move to the planes of their neighbors, and the looks
 //! are at the moved points. Scans that were put together with errors lie beside each other, only
-//! where they overlap. No neighbor tells which of them is the surface. So the surface counts as
-//! thick (`tuning`).
+//! where they overlap. Where they are near each other, planes of neighbors join them, too. Where
+//! they are not, no neighbor tells which of them is the surface. So the surface counts as thick
+//! (`tuning`).
 
 use alloc::boxed::Box;
 use alloc::sync::Arc;
+use glam::DVec3;
 
+use crate::answers::denoise::on_plane;
 use crate::answers::looks::look::Seen;
-use crate::base::allocation::filled;
+use crate::base::allocation::{OutOfMemory, filled, with_capacity};
 use crate::base::error::Error;
+use crate::base::sort::percentile;
+use crate::cloud::neighbors::{Nearest, Neighbors};
 use crate::cloud::noise::Noise;
 use crate::cloud::point_cloud::{PointCloud, Smooth, Survey};
+use crate::cloud::points::Points;
+use crate::cloud::quadric::off_quadric;
+use crate::cloud::statistics::{mean_distance, sampled_place};
 use crate::view::options::Options;
 
 /// How many neighbors make the plane to which a point moves.
@@ -23,17 +31,63 @@ const PASSES: usize = 3;
 /// Where noise is more than this, in spacings, so many neighbors vote.
 const LARGE: f64 = 0.3;
 const VOTERS: usize = 16;
+/// Moving points joins layers if, at this percentile of so many places, points lie at most so far
+/// off their surface afterwards, in spacings: up to 0.2 on small objects whose scans are up to a
+/// spacing off, 0.24 and 0.4 in registered rooms. A street has 0.19, but 10 times the lower percentile:
+/// where most places are smooth and some are not, layers are left.
+const HIGH: usize = 75;
+const LOW: usize = 25;
+const PLACES: usize = 512;
+const JOINED: f64 = 0.2;
+const LAYERED: f64 = 6.0;
+/// How many of the nearest points tell of the surface at a place.
+const AROUND: usize = 16;
 
 impl Survey {
     pub(crate) fn of(cloud: &PointCloud) -> Result<Self, Error> {
         let noise = cloud.known_noise()?;
-        let smooth = if noise.excess > 0.0 && noise.is_even {
+        let is_noisy = noise.excess > 0.0;
+        let smooth = if is_noisy && (noise.is_even || are_joined(&cloud.sequence.points)?) {
             Some(Smooth::of(cloud, &noise)?)
         } else {
             None
         };
         Ok(Self { noise, smooth })
     }
+}
+
+/// Whether moved points lie in one surface.
+#[inline(never)]
+fn are_joined(points: &Points) -> Result<bool, OutOfMemory> {
+    let n = points.len();
+    let count = n.min(PLACES);
+    let neighbors = Neighbors::new(points)?;
+    let mut around = Nearest::with_capacity(AROUND)?;
+    let mut nearest = Nearest::with_capacity(NEIGHBORS)?;
+    let mut moved = with_capacity(AROUND + 1)?;
+    let mut off = with_capacity(count)?;
+    for sample in 0..count {
+        let query = sampled_place(sample, count, n);
+        neighbors.find(query, &mut around);
+        let spacing = mean_distance(around.found(), None);
+        let origin = DVec3::from_array(points.get(query));
+        moved.clear();
+        let others = around.found().iter().map(|other| other.index as usize);
+        for point in core::iter::once(query).chain(others) {
+            neighbors.find(point, &mut nearest);
+            let place = on_plane(points.get(point), &nearest, points);
+            moved.push((DVec3::from_array(place) - origin) / spacing);
+        }
+        let deviation = off_quadric(&moved).deviation;
+        if deviation >= 0.0 {
+            off.push(deviation);
+        }
+    }
+    let [low, high] = [LOW, HIGH].map(|percent| percentile(&off, percent));
+    let (Some(low), Some(high)) = (low?, high?) else {
+        return Ok(false);
+    };
+    Ok(high < JOINED && high < LAYERED * low)
 }
 
 impl Smooth {

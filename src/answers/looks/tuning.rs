@@ -6,7 +6,7 @@
 //! With noise a visible point may lie behind its neighbors, up to a thickness T. It stays on the
 //! hull if it is less than x²/2c behind points that are x beside it. Where rays graze the surface,
 //! noise is longer along a ray, and samples are nearer to each other across it. So hulls are
-//! looser, by the cube of the cosine.
+//! looser, by more than the cube of the cosine.
 
 use glam::DVec3;
 
@@ -43,7 +43,7 @@ const RULES: [f64; 2] = [0.2, 0.3];
 /// How much looser hulls are with noise, and with range.
 const LOOSER: f64 = 0.5;
 const LOOSER_BY_RANGE: [f64; 2] = [5.0, 4.0];
-const COSINE_POWER: f64 = 3.0;
+const COSINE_POWER: f64 = 3.5;
 
 /// The numbers of one view, in the cloud's units.
 #[derive(Clone, Copy)]

@@ -22,6 +22,7 @@ pub mod parts;
 pub mod placing;
 pub mod rational;
 pub mod rng;
+pub mod scanner;
 pub mod scenes;
 pub mod sectors;
 pub mod shapes;

@@ -1,0 +1,92 @@
+//! Looks at what a simulated scanner measures (`common/scanner`). The truth is that of the surface.
+
+#[cfg(target_arch = "wasm32")]
+use wasm_bindgen_test::wasm_bindgen_test as test;
+
+use hidden_point_removal::{Inversion, Options, PointCloud};
+
+use crate::common::rng::Rng;
+use crate::common::scanner::{Hall, Measured, Place, Scanner, fused};
+
+const LOOKS: Options = Options::with_inversion(Inversion::Looks(3));
+const LASER: Scanner = Scanner {
+    rings: 90,
+    columns: 360,
+    range_noise: 0.008,
+    angle_noise: 2e-4,
+    beam: 2e-3,
+    registration: [0.0; 2],
+};
+
+/// Few rings, with many points on each: spacing differs by direction, and grows with range.
+const SPINNING: Scanner = Scanner {
+    rings: 32,
+    columns: 1000,
+    range_noise: 0.02,
+    ..LASER
+};
+
+fn cloud_of(points: &[Measured]) -> PointCloud {
+    let places: Vec<Place> = points.iter().map(|point| point.place).collect();
+    PointCloud::new(&places).unwrap()
+}
+
+/// Wrong points in percent: of all that are judged, of the hidden and of the visible ones.
+fn wrong(points: &[Measured], viewpoint: Place, options: &Options) -> [f64; 3] {
+    let seen = cloud_of(points).visible_from(viewpoint, options).unwrap();
+    let [mut wrong, mut all] = [[0.0; 2]; 2];
+    for (point, &seen) in points.iter().zip(&seen.mask()) {
+        let Some(truth) = point.truth else { continue };
+        let is_visible = Hall::sees(viewpoint, truth);
+        all[usize::from(is_visible)] += 1.0;
+        wrong[usize::from(is_visible)] += f64::from(u8::from((seen == 1) != is_visible));
+    }
+    let share = |wrong: f64, all: f64| 100.0 * wrong / f64::max(all, 1.0);
+    [
+        share(wrong[0] + wrong[1], all[0] + all[1]),
+        share(wrong[0], all[0]),
+        share(wrong[1], all[1]),
+    ]
+}
+
+#[test]
+fn a_scanner_sees_its_own_points() {
+    for (name, scanner) in [("laser", LASER), ("spinning", SPINNING)] {
+        let station = [0.0, -0.5, 0.0];
+        let points = scanner.scan(station, &mut Rng::new(1));
+        let [now, _, _] = wrong(&points, station, &LOOKS);
+        let [before, _, _] = wrong(&points, station, &LOOKS.thickness(0.0));
+        assert!(now < 1.0 && now < before, "{name}: {now} {before}");
+    }
+}
+
+#[test]
+fn registered_scans_are_one_surface() {
+    let scanner = Scanner {
+        registration: [0.03, 0.003],
+        ..LASER
+    };
+    for (seed, voxel) in [(2, 0.02), (3, 0.04), (4, 0.08)] {
+        let mut rng = Rng::new(seed);
+        let mut points = Vec::new();
+        for station in [
+            [-5.0, -0.5, 0.2],
+            [0.5, 2.5, 0.0],
+            [4.0, -2.8, 0.3],
+            [-1.0, -1.0, -0.2],
+            [7.5, 1.0, 0.1],
+        ] {
+            points.extend(scanner.scan(station, &mut rng));
+        }
+        let points = fused(points, voxel);
+        for viewpoint in [[1.2, -2.0, 0.4], [3.5, 2.0, 0.5]] {
+            let [now, shown, lost] = wrong(&points, viewpoint, &LOOKS);
+            let [before, _, _] = wrong(&points, viewpoint, &LOOKS.thickness(0.0));
+            assert!(
+                now < 3.0 && shown < 9.0 && lost < 3.0,
+                "{voxel}: {shown} {lost}"
+            );
+            assert!(now < 0.3 * before, "{voxel}: {now} {before}");
+        }
+    }
+}
