@@ -87,6 +87,7 @@ export class HiddenPointNodesFilter extends GatheredFilter<CloudNode> {
     return this.#horizons.hidesBox(this.enabled ? this.cameras.last : undefined, min, max);
   }
 
+  /** Draws everything as it was before, and frees the memory of the cloud. May be called twice. */
   override dispose(): void {
     super.dispose();
     this.#horizons.clear();

@@ -7,7 +7,7 @@ import { indicesOver } from "../three/shades.js";
 import { MODE, withAnswer } from "./shader.js";
 import { Textures } from "./textures.js";
 import { Tile } from "./tiles.js";
-import type { OctreeNode, PotreeRenderer, PotreeShader, PotreeViewer } from "./viewer.js";
+import type { Octree, OctreeNode, PotreeRenderer, PotreeShader, PotreeViewer } from "./viewer.js";
 
 /** The points of an answer, one byte for each, and where those of a node begin. */
 interface Answer {
@@ -50,7 +50,7 @@ export class PotreeDrawing implements NodesDrawing<Tile> {
   constructor(viewer: PotreeViewer, settings: FilterSettings) {
     this.#viewer = viewer;
     this.#settings = settings;
-    this.#renderer = viewer.pRenderer;
+    this.#renderer = viewer.pRenderer as PotreeRenderer;
     this.#textures = new Textures(this.#renderer.gl);
     this.#restore = this.#hook();
   }
@@ -70,7 +70,7 @@ export class PotreeDrawing implements NodesDrawing<Tile> {
 
   takeUp(): void {
     this.#frame += 1;
-    for (const octree of this.#viewer.scene.pointclouds) {
+    for (const octree of this.#viewer.scene.pointclouds as readonly Octree[]) {
       if (octree.visible) this.#takeUpAll(octree.visibleNodes);
     }
     for (const [node, tile] of this.#tiles) {

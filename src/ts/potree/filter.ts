@@ -48,6 +48,7 @@ export class PotreeFilter extends GatheredFilter<Tile> {
     };
   }
 
+  /** Draws everything as it was before, and frees the memory of the cloud. May be called twice. */
   override dispose(): void {
     this.#leaveViewer();
     super.dispose();

@@ -2,14 +2,19 @@ import type { Camera, Material, Object3D, Points } from "three";
 
 import { describe, HprError } from "../base/errors.js";
 
-/** What is used of Potree 1.8: its `Viewer`. */
+/** What is used of a `Potree.Viewer`. */
 export interface PotreeViewer {
+  /** Its clouds and its camera. */
   readonly scene: {
-    readonly pointclouds: readonly Octree[];
+    readonly pointclouds: readonly object[];
+    /** The camera of the picture. */
     getActiveCamera(): Camera;
   };
-  readonly pRenderer: PotreeRenderer;
+  /** The renderer of its clouds. */
+  readonly pRenderer: object;
+  /** Calls the listener in every frame. */
   addEventListener(type: "update", listener: () => void): void;
+  /** Calls it no more. */
   removeEventListener(type: "update", listener: () => void): void;
 }
 
@@ -53,8 +58,12 @@ export interface PotreeRenderer {
 }
 
 export function requireViewer(viewer: unknown): asserts viewer is PotreeViewer {
-  const { pRenderer, scene } = (viewer ?? {}) as Partial<PotreeViewer>;
-  if (typeof pRenderer?.renderOctree !== "function" || typeof pRenderer.renderNodes !== "function" || !scene) {
+  const { pRenderer, scene } = (viewer ?? {}) as { pRenderer?: Partial<PotreeRenderer>; scene?: unknown };
+  if (
+    typeof pRenderer?.renderOctree !== "function" ||
+    typeof pRenderer.renderNodes !== "function" ||
+    scene === undefined
+  ) {
     throw new HprError("option", `viewer must be a Potree.Viewer of Potree 1.7 or 1.8, got ${describe(viewer)}`);
   }
 }
