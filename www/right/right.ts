@@ -82,7 +82,9 @@ function judgment(judged: Judged): Node[] {
       make(
         "tr",
         {},
-        ...["", "Shown, but hidden", "Hidden, but visible", "Wrong"].map((text) => make("th", { scope: "col" }, text)),
+        ...["Method", "Shown, but hidden", "Hidden, but visible", "Wrong"].map((text) =>
+          make("th", { scope: "col" }, text),
+        ),
       ),
     ),
     make("tbody", {}, ...verdicts.map((verdict) => rowOf(verdict, best))),
