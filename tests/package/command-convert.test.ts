@@ -58,3 +58,14 @@ it("LAZ and E57 to PLY, also packed; PTX to LAS", async () => {
   expect((await readCloud(place("gz.ply"))).positions).toEqual(positions);
   expect([...(await readCloud(place("ptx.las"))).positions]).toEqual([8, 8, 9, 7, 10, 9]);
 });
+
+it("Gaussian splats to LAS, with their base colors; the summary says that they are splats", async () => {
+  const names = ["x", "y", "z", "f_dc_0", "f_dc_1", "f_dc_2"];
+  write(
+    "splats.ply",
+    ["ply", "format ascii 1.0", "element vertex 1", ...names.map((name) => `property float ${name}`), "end_header", "1 2 3 0 1 -9", ""].join("\n"), // prettier-ignore
+  );
+  const { status, stderr } = run("splats.ply", "--from", "9,9,9", "-o", "splats.las");
+  expect([status, stderr]).toEqual([0, expect.stringContaining("1 of 1 points are visible; it holds Gaussian splats")]);
+  expect([...(await readCloud(place("splats.las"))).colors!]).toEqual([128, 199, 0]);
+});

@@ -38,3 +38,18 @@ export function byteColors(columns: readonly FilledColumn[]): Uint8Array<ArrayBu
   for (let i = 0; i < colors.length; i++) colors[i] = channels[i % 3]![Math.floor(i / 3)]! / scale;
   return colors;
 }
+
+/** The factor of the first spherical harmonic, 1 ÷ (2 √π). */
+const HARMONIC = 0.28209479177387814;
+
+/** The colors of Gaussian splats, of which files keep the first harmonic. Null if they have none, or others besides. */
+export function splatColors(columns: readonly FilledColumn[]): Uint8Array<ArrayBuffer> | null {
+  const valuesOf = (wanted: string) => columns.find(({ name }) => name === wanted)?.values;
+  const harmonics = [0, 1, 2].map((channel) => valuesOf(`f_dc_${channel}`));
+  if (!harmonics.every((values) => values !== undefined) || valuesOf("red")) return null;
+  const colors = new Uint8ClampedArray(3 * harmonics[0]!.length);
+  for (let i = 0; i < colors.length; i++) {
+    colors[i] = 255 * (0.5 + HARMONIC * harmonics[i % 3]![Math.floor(i / 3)]!);
+  }
+  return new Uint8Array(colors.buffer);
+}

@@ -1,4 +1,5 @@
 import type { CloudFile, Reading } from "./cloud-file.js";
+import { splatColors } from "./colors.js";
 import { LONGEST_PLY_HEADER, type PlyHeader, readPlyHeader } from "./ply.js";
 import { checkEnd, endOfRows, otherColumns, type Points, readBinaryRows, readTextRows } from "./read-rows.js";
 import { fieldsSaid, listsIn } from "./rows.js";
@@ -7,6 +8,8 @@ import { fieldsSaid, listsIn } from "./rows.js";
 const NAMES: Record<string, string> = {
   r: "red", diffuse_red: "red", g: "green", diffuse_green: "green", b: "blue", diffuse_blue: "blue",
 }; // prettier-ignore
+
+const SPLATS = "it holds Gaussian splats: their centers are read as points, with their base colors";
 
 /** The vertices of a PLY file. Its faces are ignored. */
 export async function readPly(reading: Reading): Promise<CloudFile> {
@@ -18,8 +21,10 @@ export async function readPly(reading: Reading): Promise<CloudFile> {
       ? await readTextRows(reading, { start: end, firstNumber: lines.length + 1 }, elements, points)
       : await readBinary(reading, header, points);
   const faces = elements.some((element) => element.name === "face" && element.count > 0);
+  const packed = splatColors(cloud.columns);
   return {
     ...cloud,
+    ...(packed && { packed, notes: [...cloud.notes, SPLATS] }),
     unread: listsIn(vertices),
     axes: fieldsSaid(vertices.fields, axes),
     isMesh: faces && cloud.positions.length === 3 * vertices.count,
