@@ -9,8 +9,16 @@ const NUMBERED = POINTS.map((point, i) => [i + 1, ...point, 0.5 * i]);
 const commas = (text: string) => text.replaceAll(".", ",");
 const withFirst = (x: number) => [x, ...SAME.slice(1)];
 
+const numberedFrom = (first: number, more: readonly number[] = []) =>
+  POINTS.map((point, i) => [first + i, ...point, ...more]);
+const two = NUMBERED.slice(0, 2);
+const leftOut = NUMBERED.filter((_, i) => i !== 1);
+const grid = [0, 1, 2, 3].map((x) => [x, 7, 0.5 * x, 12]);
+const colored = [1, 2, 3, 4].map((x) => [x, 2 * x, 3 * x, 255, 128, x]);
+
 type Row = [name: string, content: string | Uint8Array, expected: Case["expected"], columns?: ChosenColumns];
 
+const DEGREES = "names longitude and latitude: degrees must be projected to meters first";
 const NO_NAMES = "is neither three numbers nor names of columns x, y and z";
 
 const ROWS: Row[] = [
@@ -131,7 +139,12 @@ const ROWS: Row[] = [
   ["a name less", `x,y,z\n${table(",", NUMBERED)}`, "line 2 has 5 columns, and line 1 names 3"],
   ["other names", `id,time,a,b,c\n${table(",", NUMBERED)}`, `line 1 ${NO_NAMES}: "id,time,a,b,c"`],
   ["other names for three columns", `a,b,c\n${COMMAS}`, `line 1 ${NO_NAMES}`],
-  ["degrees", `lon,lat,height\n${COMMAS}`, `line 1 ${NO_NAMES}`],
+  ["degrees", `lon,lat,height\n${COMMAS}`, `line 1 ${DEGREES}`],
+  ["degrees in full", `id;Latitude [deg];Longitude [deg];alt;t\n${table(";", NUMBERED)}`, `line 1 ${DEGREES}`],
+  ["degrees in a comment", `# lon lat alt\n${SPACED}`, `line 1 ${DEGREES}`],
+  ["degrees that are chosen", `lon,lat,alt\n${COMMAS}`, SAME, ["lon", "lat", "alt"]],
+  ["degrees beside x, y and z", `lon,x,y,z,lat\n${table(",", NUMBERED)}`, SAME],
+  ["only a latitude", `lat,time,height\n${COMMAS}`, `line 1 ${NO_NAMES}`],
   ["only two axes", `id,x,y,w,t\n${table(",", NUMBERED)}`, `line 1 ${NO_NAMES}`],
   ["x twice", `x,x,y,z,t\n${table(",", NUMBERED)}`, 'its columns 1 and 2 are names of the same axis: "x x y z t"'],
   ["x and X", `x,X,y,z,t\n${table(",", NUMBERED)}`, "its columns 1 and 2 are names of the same axis"],
@@ -220,10 +233,20 @@ const ROWS: Row[] = [
   ["the number of points above", `4\n${SPACED}`, SAME],
   ["the number of points above, too small", `3\n${SPACED}`, "line 1 promises 3 points, and there are 4"],
   ["the number of points above, too large", `5\n${SPACED}`, "line 1 promises 5 points, and there are 4"],
-  ["the number of points twice", `4\n4\n${SPACED}`, `line 2 ${NO_NAMES}`],
+  // The page takes the two counts for those of PTX.
+  ["the number of points twice", `4\n4\n${SPACED}`, `line 2 ${NO_NAMES}|after 6 of the 10 lines above a scan`],
   ["the number of points between", `4\n${SPACED}4\n${SPACED}`, "line 6 is not a point, it has 1 columns"],
   ["the number of points and names", `4\nx y z\n${SPACED}`, SAME],
   ["atoms", "2\nwater\nO 0 0 0\nH 0 0 1\n", `line 2 ${NO_NAMES}`],
+
+  ["numbers of points without names", table(" ", NUMBERED), SAME],
+  ["numbers of points from 1001 on, before colors", table(",", numberedFrom(1001, [200, 100, 0])), SAME],
+  ["numbers of points below a comment", `# by a test\n\n${table("\t", numberedFrom(0))}`, SAME],
+  ["numbers of points of which one is missing", table(" ", leftOut), leftOut.flatMap((row) => row.slice(0, 3))],
+  ["numbers of two points", table(" ", two), two.flatMap((row) => row.slice(0, 3))],
+  ["x along a row of a grid", table(" ", grid), grid.flatMap((row) => row.slice(0, 3))],
+  ["x that counts, with colors", table(" ", colored), colored.flatMap((row) => row.slice(0, 3))],
+  ["numbers and two coordinates", "1 5 6\n2 7 8\n3 9 1\n", [1, 5, 6, 2, 7, 8, 3, 9, 1]],
 
   ["columns by number", table(" ", NUMBERED), SAME, ["2", "3", "4"]],
   ["columns by number, in another order", SPACED, POINTS.flatMap(([x, y, z]) => [z, x, y]), ["3", "1", "2"]],

@@ -234,7 +234,8 @@ function table(text: string): number[] | undefined {
   const by = dividerBelow(first, head);
   const width = head?.names.length ?? wordsIn(first, by).length;
   const comments = lines.slice(0, lines.indexOf(first)).filter(isComment);
-  const places = head?.places ?? commentedPlaces(comments, width, /[;,]/.test(by.source));
+  const rows = body.slice(0, 200).map((line) => wordsIn(line, by, width));
+  const places = head?.places ?? commentedPlaces(comments, width, /[;,]/.test(by.source)) ?? unnamedPlaces(rows);
   const found: number[] = [];
   for (const line of body) {
     const words = wordsIn(line, by, width);
@@ -297,8 +298,8 @@ function placesIn(names: readonly string[]): number[] | undefined {
   return found.every(({ length }) => length === 1) ? found.flat() : fail();
 }
 
-/** The columns of x, y and z that a comment names. Without such a comment they are the first three. */
-function commentedPlaces(comments: readonly string[], width: number, marked: boolean): number[] {
+/** The columns of x, y and z that a comment names. */
+function commentedPlaces(comments: readonly string[], width: number, marked: boolean): number[] | undefined {
   for (const comment of comments.toReversed()) {
     const line = strip(comment).replace(/^(#+|\/\/+)\s*/, "");
     const by = dividerOf(line);
@@ -307,7 +308,19 @@ function commentedPlaces(comments: readonly string[], width: number, marked: boo
     const places = names.length === width ? placesIn(names) : undefined;
     if (places !== undefined) return places;
   }
-  return [0, 1, 2];
+  return undefined;
+}
+
+/** The first three columns, or those after a column of consecutive integers. */
+function unnamedPlaces(rows: readonly string[][]): number[] {
+  const isColumn = (place: number, holds: (word: string, row: number) => boolean) =>
+    rows.every((words, row) => words[place] !== undefined && holds(words[place], row));
+  const count = (word: string, row: number) => /^[0-9]+$/.test(word) && Number(word) === Number(rows[0]![0]) + row;
+  const byte = (word: string) => /^[0-9]{1,3}$/.test(word) && Number(word) < 256;
+  const numbered = isColumn(0, count) && [1, 2, 3].every((place) => isColumn(place, isCell)) && rows.length > 2;
+  const isGrid = isColumn(1, (word) => word === rows[0]![1]);
+  const isColored = rows[0]!.length === 6 && [3, 4, 5].every((place) => isColumn(place, byte));
+  return numbered && !isGrid && !isColored ? [1, 2, 3] : [0, 1, 2];
 }
 
 function dividerOf(line: string): RegExp {

@@ -90,6 +90,32 @@ describe("the formats", () => {
     expect([[...positions.subarray(0, 3)], unit]).toEqual([[...NODE_AT], { name: "m", meters: 1 }]);
   });
 
+  it("Gaussian splats: base colors and a note, unless the file has colors", async () => {
+    const splats = (more: string, colors: string) =>
+      ["ply", "format ascii 1.0", "element vertex 2", ...["x", "y", "z", "f_dc_0", "f_dc_1", "f_dc_2", "opacity"].map((name) => `property float ${name}`), ...(more === "" ? [] : [more]), "end_header", `0 0 1 0 1 -1 5${colors}`, `1 2 3 9 -9 0.5 -5${colors}`, ""].join("\n"); // prettier-ignore
+    const { positions, colors, columns, notes } = await readCloud(buffer(splats("", "")));
+    expect([...positions]).toEqual([0, 0, 1, 1, 2, 3]);
+    // 255 · (0.5 + 0.2821 · f_dc), between 0 and 255.
+    expect([...colors!]).toEqual([128, 199, 56, 255, 0, 163]);
+    expect([...columns["f_dc_1"]!]).toEqual([1, -9]);
+    expect(notes).toEqual([expect.stringContaining("Gaussian splats")]);
+    const own = await readCloud(
+      buffer(splats("property uchar red\nproperty uchar green\nproperty uchar blue", " 1 2 3")),
+    );
+    expect([...own.colors!]).toEqual([1, 2, 3, 1, 2, 3]);
+    expect(own.notes).toBeUndefined();
+  });
+
+  it("a column before x, y and z that numbers the points, before colors", async () => {
+    const { positions, colors, columns, notes } = await readCloud(
+      buffer("7,1,2,3,9,8,7\n8,4,5,6,9,8,7\n9,7,8,9,9,8,7\n"),
+    );
+    expect([...positions]).toEqual([1, 2, 3, 4, 5, 6, 7, 8, 9]);
+    expect([...colors!.subarray(0, 3)]).toEqual([9, 8, 7]);
+    expect(columns["column 1"]).toEqual(Float64Array.of(7, 8, 9));
+    expect(notes).toEqual(["x, y and z are columns 2, 3, 4"]);
+  });
+
   it("the columns that the caller chooses", async () => {
     const file = buffer("a;b;c;d\n1;2;3;4\n5;6;7;8\n");
     const cloud = await readCloud(file, { columns: ["d", 2, "a"] });

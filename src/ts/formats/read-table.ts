@@ -2,10 +2,9 @@ import { CloudBuilder } from "./builder.js";
 import type { CloudFile, Reading } from "./cloud-file.js";
 import { step } from "./read-rows.js";
 import { lines } from "./source.js";
-import { cell, isComment } from "./table-words.js";
-import { columnsSaid, isPlain, type Layout, rowWords, TableRows } from "./table.js";
+import { cell } from "./table-words.js";
+import { columnsSaid, isByte, isPlain, type Layout, rowsIn, TableRows } from "./table.js";
 import { textOf } from "./text-source.js";
-import { trimmed } from "./text.js";
 
 /** A column besides x, y and z. */
 interface Other {
@@ -26,10 +25,11 @@ export async function readTable(reading: Reading): Promise<CloudFile> {
   for await (const { texts, number, end, places } of lines(await textOf(reading), 0)) {
     const at = reading.records ? places() : undefined;
     for (let line = 0; line < texts.length; line++) {
-      const point = rows.take(texts[line]!, number + line);
+      const following = () => texts.slice(line, line + LOOK_AT);
+      const point = rows.take(texts[line]!, number + line, following);
       if (point === undefined) continue;
       if (builder === undefined) {
-        others = otherColumns(rows.layout!, sample(texts.slice(line, line + LOOK_AT), rows.layout!));
+        others = otherColumns(rows.layout!, rowsIn(following(), rows.layout!));
         const columns = others.map(({ name }) => ({ name, type }) as const);
         builder = new CloudBuilder("float64", columns, reading, null);
       }
@@ -44,9 +44,10 @@ export async function readTable(reading: Reading): Promise<CloudFile> {
   }
   rows.finish();
   const layout = rows.layout!;
-  // Colors after the position are a sure sign, too, so nothing needs to be said.
-  const areAxesPlain = isPlain(layout) || (layout.names === undefined && others.some((other) => other.name === "red"));
   const { width, axes, names } = layout;
+  // Colors after the position are a sure sign, too, so nothing needs to be said.
+  const areAxesPlain =
+    isPlain(layout) || (names === undefined && axes[0] === 0 && others.some((other) => other.name === "red"));
   const read = [...axes, ...others.map(({ column }) => column)];
   const unread = Array.from({ length: width }, (_, column) => names?.written[column] ?? `column ${column + 1}`);
   return {
@@ -57,22 +58,16 @@ export async function readTable(reading: Reading): Promise<CloudFile> {
   };
 }
 
-/** The words of the first points. */
-function sample(texts: readonly string[], layout: Layout): string[][] {
-  return texts
-    .filter((line) => trimmed(line) !== "" && !isComment(trimmed(line)))
-    .map((line) => rowWords(line, layout) ?? []);
-}
-
 /**
- * The colors by their names. Without names, they are the last three of 6 columns (x y z r g b) or of 7 (with an
- * intensity before them), if all values are bytes. Also the other columns of numbers.
+ * The colors by their names. Without names, they are the last three columns after x y z or after x y z and an intensity,
+ * if all values are bytes. Also the other columns of numbers.
  */
 function otherColumns({ width, axes, names }: Layout, rows: readonly string[][]): Other[] {
   const bare = names?.bare ?? [];
   const named = COLORS.map((pattern) => bare.findIndex((name) => pattern.test(name)));
   const last = [width - 3, width - 2, width - 1];
-  const unnamed = names === undefined && (width === 6 || width === 7);
+  const between = width - 4 - Math.max(...axes);
+  const unnamed = names === undefined && (between === 0 || between === 1);
   const bytes = unnamed && rows.every((row) => last.every((column) => isByte(row[column] ?? "")));
   const colors = !named.includes(-1) ? named : bytes ? last : [];
   const others = colors.map((column, channel) => ({ name: ["red", "green", "blue"][channel]!, column }));
@@ -82,8 +77,4 @@ function otherColumns({ width, axes, names }: Layout, rows: readonly string[][])
     if (isNumber) others.push({ name: bare[column] ?? `column ${column + 1}`, column });
   }
   return others;
-}
-
-function isByte(word: string): boolean {
-  return /^\d{1,3}$/.test(word) && Number(word) <= 255;
 }

@@ -79,6 +79,10 @@ export async function* lines(source: Source, start: number, firstNumber = 1): As
   let line = firstNumber;
   for await (const block of blocks(source, at)) {
     const bytes = joined(rest, block);
+    if (at + bytes.length === source.size) {
+      yield linesIn(bytes, decoder, line, at);
+      return;
+    }
     // The text after the last line end is not complete yet. A carriage return may belong to a line end that the next
     // block completes.
     const end = Math.max(bytes.lastIndexOf(LINE_FEED), bytes.lastIndexOf(RETURN, bytes.length - 2)) + 1;

@@ -13,6 +13,8 @@ const CALLED = [
 const LENGTH = /^[[(]?(m|mm|cm|dm|km|um|µm|ft|feet|foot|in|inch|inches|us-?ft|ftus|yd|met(er|re)s?)?[\])]?$/i;
 const UNIT = /[[(]([^\])]*)[\])]$|[ _.-](m|mm|cm|km|ft|met(?:er|re)s?)$/i;
 
+const DEGREES = [/^(lon|long|lng|longitude)([ _.-]?deg(rees)?)?$/, /^(lat|latitude)([ _.-]?deg(rees)?)?$/];
+
 /**
  * The names in a line, in two forms: as they are written, and bare. A bare name is in lower case and
  * has no unit: "X [m]" and "x_m" become x.
@@ -64,6 +66,11 @@ export function axesIn({ written, bare }: Names, chosen?: ChosenColumns): Axes |
   const axes = found.flat() as unknown as Axes;
   checkUnits(axes.map((axis) => unitOf(written[axis]!)));
   return axes;
+}
+
+/** Whether there are columns of longitude and latitude. */
+export function areDegrees({ bare }: Names): boolean {
+  return DEGREES.every((pattern) => bare.some((name) => pattern.test(name)));
 }
 
 /** Whether a line below the names gives the units of x, y and z. */

@@ -2,7 +2,7 @@ import { type ChosenColumns, isNumber } from "./axes.js";
 import { isOutOfRange } from "./numbers.js";
 import { FormatProblem, lineProblem } from "./problem.js";
 import type { Axes } from "./rows.js";
-import { areUnits, axesIn, type Names, namesIn } from "./table-names.js";
+import { areDegrees, areUnits, axesIn, type Names, namesIn } from "./table-names.js";
 import { cell, isComment, type Separator, separatorOf, split } from "./table-words.js";
 import { trimmed } from "./text.js";
 
@@ -23,6 +23,9 @@ export interface TablePoint {
 
 /** The largest number of lines above the points: a title or names, and units. Comments are not counted. */
 const MOST_HEAD_LINES = 2;
+const NOT_PROJECTED = "names longitude and latitude: degrees must be projected to meters first, for example to UTM";
+/** Enough points to see that they are numbered. */
+const LEAST_NUMBERED = 3;
 
 /**
  * Takes the lines of a table, one point each. Spaces, tabs, commas or semicolons divide the words.
@@ -52,15 +55,19 @@ export class TableRows {
     return this.#layout;
   }
 
-  /** The point of this line. Undefined for a line that is not a point. */
-  take(text: string, number: number): TablePoint | undefined {
+  /**
+   * The point of this line. Undefined for a line that is not a point.
+   *
+   * @param following this line and some after it. Without them, the first column is taken as x even if it numbers the points
+   */
+  take(text: string, number: number, following = (): readonly string[] => []): TablePoint | undefined {
     const line = trimmed(text);
     if (line === "") return undefined;
     if (isComment(line)) {
       if (this.#layout === undefined) this.#comments.push({ text: line, line: number });
       return undefined;
     }
-    this.#layout ??= this.#begin(line, untrimmed(text), number);
+    this.#layout ??= this.#begin(line, untrimmed(text), number, following);
     if (this.#layout === undefined) return undefined;
     const { width, axes } = this.#layout;
     const words = rowWords(text, this.#layout);
@@ -102,7 +109,7 @@ export class TableRows {
   }
 
   /** Returns the layout if this line is the first point. Otherwise, the line belongs to the head. */
-  #begin(line: string, whole: string, number: number): Layout | undefined {
+  #begin(line: string, whole: string, number: number, following: () => readonly string[]): Layout | undefined {
     if (/^\d+$/.test(line) && this.#promised === undefined && this.#names === undefined) {
       this.#promised = { count: Number(line), line: number };
       return undefined;
@@ -135,11 +142,14 @@ export class TableRows {
       return undefined;
     }
     if (numbers >= 3) {
-      return this.#layoutOf(line, number, separator, words, this.#axesInComments(words.length, separator));
+      const axes = this.#axesInComments(words.length, separator);
+      const rows = this.#commented ? [] : rowsIn(following(), { separator, width: words.length });
+      return this.#layoutOf(line, number, separator, words, areNumbered(rows) ? [1, 2, 3] : axes);
     }
 
     const names = namesIn(line);
     const axes = axesIn(names, this.#chosen);
+    if (axes === undefined && areDegrees(names)) throw lineProblem(number, NOT_PROJECTED, line);
     if (axes === undefined) throw lineProblem(number, "is neither three numbers nor names of columns x, y and z", line);
     this.#names = { ...names, line: number, axes };
     return undefined;
@@ -158,6 +168,7 @@ export class TableRows {
       const names = namesIn(text, separator);
       const fits = names.written.length === width;
       const axes = this.#chosen && !fits ? undefined : axesIn(names, this.#chosen);
+      if (axes === undefined && fits && areDegrees(names)) throw lineProblem(line, NOT_PROJECTED, text);
       if (axes === undefined && fits && width > 3) {
         throw lineProblem(line, "may name the columns, but not which are x, y and z", text);
       }
@@ -180,8 +191,40 @@ function areCommasUnclear(line: string): boolean {
   return (/\d,\d/.test(line) && /\d,\s/.test(line)) || /,0\d/.test(line);
 }
 
+/**
+ * Whether the first column numbers the points: it has consecutive integers, and three more columns are numbers. Where y is
+ * the same everywhere, the points may be a row of a grid, and where six columns end with bytes, these are colors.
+ */
+function areNumbered(rows: readonly string[][]): boolean {
+  const [first] = rows;
+  return (
+    first !== undefined &&
+    first.length > 3 &&
+    rows.length >= LEAST_NUMBERED &&
+    rows.every(
+      (row, i) =>
+        /^\d+$/.test(row[0]!) &&
+        Number(row[0]) === Number(first[0]) + i &&
+        [1, 2, 3].every((column) => cell(row[column] ?? "") !== undefined),
+    ) &&
+    rows.some((row) => row[1] !== first[1]) &&
+    !(first.length === 6 && rows.every((row) => row.slice(3).every(isByte)))
+  );
+}
+
+export function isByte(word: string): boolean {
+  return /^\d{1,3}$/.test(word) && Number(word) <= 255;
+}
+
+/** The words of these lines, as far as they are points. */
+export function rowsIn(texts: readonly string[], layout: Pick<Layout, "separator" | "width">): string[][] {
+  return texts
+    .filter((line) => trimmed(line) !== "" && !isComment(trimmed(line)))
+    .map((line) => rowWords(line, layout) ?? []);
+}
+
 /** The words of a line below the head; undefined if a quotation mark has no end. */
-export function rowWords(text: string, { separator, width }: Layout): string[] | undefined {
+function rowWords(text: string, { separator, width }: Pick<Layout, "separator" | "width">): string[] | undefined {
   const words = split(separator === "\t" ? untrimmed(text) : trimmed(text), separator);
   // A separator may stand at the end of a line.
   if (words?.length === width + 1 && words.at(-1) === "") words.pop();
