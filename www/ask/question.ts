@@ -16,6 +16,8 @@ export interface Method {
   inversion: Inversion;
   /** 0: the operator of the paper. */
   looks: Looks;
+  /** Only with looks. Undefined: it follows from the noise of the cloud. */
+  thickness?: number | undefined;
   denoise: number;
   vote: number;
 }
@@ -52,12 +54,12 @@ export function operatorOf({ radius, inversion, denoise, vote }: Settings): Meth
 
 /** The question whose answer is final. */
 export function viewOf(viewpoint: Viewpoint, settings: Settings): ViewQuestion {
-  const { show, viewpoints, edge, looks } = settings;
+  const { show, viewpoints, edge, looks, thickness } = settings;
   const method = operatorOf(settings);
   if (show === "surface") return { viewpoint, method, shape: { kind: "surface", edge } };
   const shape: Shape = { kind: "points", viewpoints };
   return looks > 0 && canLook(settings)
-    ? { viewpoint, method: { ...method, radius: null, looks }, shape }
+    ? { viewpoint, method: { ...method, radius: null, looks, ...(thickness !== "auto" && { thickness }) }, shape }
     : { viewpoint, method, shape };
 }
 
@@ -102,7 +104,7 @@ export function quickLight(question: LightQuestion): LightQuestion {
 }
 
 function quickMethod(method: Method): Method {
-  return isSlow(method) ? { ...method, radius: { rule: "auto" }, looks: 0 } : method;
+  return isSlow(method) ? { ...method, radius: { rule: "auto" }, looks: 0, thickness: undefined } : method;
 }
 
 /** Whether the answer takes several hulls. */

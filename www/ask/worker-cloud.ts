@@ -21,7 +21,10 @@ export class WorkerCloud {
     this.center = center;
   }
 
-  async options({ radius, inversion, looks, denoise, vote }: Method, viewpoint: Viewpoint): Promise<VisibilityOptions> {
+  async options(
+    { radius, inversion, looks, thickness, denoise, vote }: Method,
+    viewpoint: Viewpoint,
+  ): Promise<VisibilityOptions> {
     const nearest = Math.max(denoise, vote);
     // This check is here because the library's message would be unclear: it gives the range of the number, which is
     // empty for one point.
@@ -40,7 +43,7 @@ export class WorkerCloud {
             ? { radius: radius.length }
             : radius),
       ...(inversion === "spherical" ? {} : { inversion: await this.#inversion(inversion, viewpoint) }),
-      ...(looks === 0 ? {} : { looks }),
+      ...(looks === 0 ? {} : { looks, thickness }),
       ...(denoise > 0 ? { denoise } : {}),
       ...(vote > 0 ? { vote } : {}),
     };

@@ -2,7 +2,7 @@ import { init } from "hidden-point-removal";
 import { WorkerPointCloud } from "hidden-point-removal/worker";
 import { Inquiry, isHang } from "../ask/inquiry.ts";
 import { WorkerCloud } from "../ask/worker-cloud.ts";
-import type { Up } from "../cloud/cloud.ts";
+import type { FileStation, Up } from "../cloud/cloud.ts";
 import { loadCloud, type LoadRequest, type MadeRequest } from "../loaders/index.ts";
 import type { Sample } from "../samples/samples.ts";
 import type { Settings } from "../settings/settings.ts";
@@ -50,6 +50,8 @@ export interface Ready {
   view: AskedView | null;
   /** Returns the first view, if this view is asked for, or the `whole` cloud with points that lie far away. */
   homeFrom: (view: AskedView | null, whole?: boolean) => (up: Up) => Home;
+  /** The places from which the points were measured, if the file says so. */
+  stations: FileStation[];
   /** Sentences about wishes that cannot be met. */
   refusals: string[];
   /** Sentences that the user has to read about the cloud. */
@@ -96,6 +98,7 @@ export async function openCloud(
     ...usual,
     freeze: null,
     lights: [],
+    thickness: "auto",
     ...radiusFor(place.settings()),
     ...wished,
     ...places,
@@ -168,6 +171,7 @@ export async function openCloud(
       touching: touchingSize(sample, cloud.count),
       view,
       homeFrom,
+      stations: loaded.taken?.stations ?? [],
       refusals: [...farNotes, ...colorNote, ...againstNote],
       notes: loaded.notes ?? [],
     };

@@ -14,6 +14,7 @@ import type { Store } from "../settings/store.ts";
 import type { Workshop } from "../tools/workshop.ts";
 import type { AskedView } from "../view/framing.ts";
 import type { Viewer } from "../view/viewer.ts";
+import { calibrate } from "./calibrate.ts";
 import { isLoss, type Notices, sentenceOf } from "./notices.ts";
 import { fromSample, type Source } from "./sources.ts";
 import type { Status } from "./status.ts";
@@ -134,6 +135,13 @@ export class Opening {
         run: () => {
           viewer.setHome(ready.homeFrom(null, true));
         },
+      });
+    }
+    if (ready.stations.length > 0 && ready.settings.thickness === "auto") {
+      more.push("The file says where its points were measured from.");
+      actions.push({
+        label: "Calibrate by its stations",
+        run: () => void calibrate(ready, { viewer, store, message }),
       });
     }
     if (more.length > 0) message.show([...notes, ...more].join(" "), actions);

@@ -84,6 +84,14 @@ export const SETTINGS = {
     called: "number of looks",
     otherwise: "it is 3",
   }),
+  thickness: setting<number | "auto">({
+    parameter: "thickness",
+    ...orWord(POSITIVE, "auto", "auto"),
+    values: "`auto` or a positive length",
+    usual: "auto",
+    otherwise: "it follows from the noise of the cloud",
+    ofCloud: true,
+  }),
   inversion: setting<Inversion>({
     parameter: "inversion",
     ...INVERSION,

@@ -27,6 +27,9 @@ export const SETTING_WORDS: Record<SettingName, SettingWords> = {
     without: "`3`; with `exponent`, `radius` or `inversion` `0`",
     labels: { 0: "One hull", 2: "2 looks", 3: "3 looks" },
   },
+  thickness: {
+    is: "how thick measured surfaces are; only with looks",
+  },
   inversion: {
     is: "how points are flipped; c in spacings",
     labels: { spherical: "Spherical", exponential: "Exponential", power: "Power" },
