@@ -34,8 +34,12 @@ fn cloud_of(points: &[Measured]) -> PointCloud {
 /// Wrong points in percent: of all that are judged, of the hidden and of the visible ones.
 fn wrong(points: &[Measured], viewpoint: Place, options: &Options) -> [f64; 3] {
     let seen = cloud_of(points).visible_from(viewpoint, options).unwrap();
+    wrong_of(points, viewpoint, &seen.mask())
+}
+
+fn wrong_of(points: &[Measured], viewpoint: Place, seen: &[u8]) -> [f64; 3] {
     let [mut wrong, mut all] = [[0.0; 2]; 2];
-    for (point, &seen) in points.iter().zip(&seen.mask()) {
+    for (point, &seen) in points.iter().zip(seen) {
         let Some(truth) = point.truth else { continue };
         let is_visible = Hall::sees(viewpoint, truth);
         all[usize::from(is_visible)] += 1.0;
@@ -57,6 +61,38 @@ fn a_scanner_sees_its_own_points() {
         let [now, _, _] = wrong(&points, station, &LOOKS);
         let [before, _, _] = wrong(&points, station, &LOOKS.thickness(0.0));
         assert!(now < 1.0 && now < before, "{name}: {now} {before}");
+    }
+}
+
+/// Leaves the station in steps of 10 cm: the largest share of labels that a step changes, and the
+/// mean share of wrong ones, in percent.
+fn leave(points: &[Measured], station: Place, axis: usize, steps: i32) -> [f64; 2] {
+    let cloud = cloud_of(points);
+    let [mut most, mut sum] = [0.0; 2];
+    let mut before: Option<Vec<u8>> = None;
+    for step in 0..=steps {
+        let mut viewpoint = station;
+        viewpoint[axis] += 0.1 * f64::from(step);
+        let seen = cloud.visible_from(viewpoint, &LOOKS).unwrap().mask();
+        if let Some(before) = before {
+            let changed = before.iter().zip(&seen).filter(|(a, b)| a != b).count();
+            most = f64::max(most, 100.0 * changed as f64 / seen.len() as f64);
+        }
+        sum += wrong_of(points, viewpoint, &seen)[0];
+        before = Some(seen);
+    }
+    [most, sum / f64::from(steps + 1)]
+}
+
+#[test]
+fn a_path_from_the_station_has_no_sudden_step() {
+    let station = [0.0, -0.5, 0.0];
+    let points = SPINNING.scan(station, &mut Rng::new(1));
+    // Along the hall and across it, up to a wall.
+    for (axis, steps, bounds) in [(0, 42, [16.0, 13.0]), (1, 30, [10.0, 5.0])] {
+        let [most, wrong] = leave(&points, station, axis, steps);
+        let is_kept = most < bounds[0] && wrong < bounds[1];
+        assert!(is_kept, "axis {axis}: {most} {wrong}");
     }
 }
 

@@ -30,9 +30,11 @@ const THICKNESS: f64 = 10.0;
 /// the noise as measured, beyond what clean clouds have.
 const ASIDE: f64 = 20.0;
 const NEARER: f64 = 4.0;
-/// Spacing grows with range if its power, times the square of the correlation, is above this. It
-/// has its full effect from the second number on, so that no viewpoint is at a jump.
-const GROWS: [f64; 2] = [0.2, 0.3];
+/// Spacing grows with range if its power, times the square of the correlation, is above this; clean
+/// surfaces have 0.1 from inside. It has its full effect from the second number on. The widening of
+/// a scan in rings is about 20, so hulls are 50 times looser then. The effect grows with the square
+/// of the way between: labels change most where it begins.
+const GROWS: [f64; 2] = [0.12, 0.3];
 /// A scan that is seen from its scanner has near points side by side: in at most this share of all
 /// directions, the nearest point by direction is more than so many spacings away. From the first
 /// number on, the viewpoint is not at the scanner.
@@ -200,7 +202,8 @@ impl Range<'_> {
     /// The power of the distance with which spacing grows, and how far this counts, from 0 to 1.
     fn growth(&self, points: &Points) -> Result<(f64, f64), OutOfMemory> {
         let growth = self.correlated_growth();
-        let mut counts = ramp(growth, GROWS);
+        let grows = ramp(growth, GROWS);
+        let mut counts = grows * grows;
         if counts > 0.0 {
             counts *= ramp(self.share_away(points)?, AWAY);
         }
