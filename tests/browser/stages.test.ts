@@ -62,10 +62,14 @@ test("in the page: maps while the camera moves, then looks; a map keeps the numb
   const now = await upToDate(page);
   const answers = await seen.jsonValue();
   expect(answers.at(-1)!.answer).toBe("looks");
-  const maps = answers.slice(0, -1);
+  // On a busy machine the camera may rest between two moves of the drag, and is answered there.
+  const maps = answers.slice(
+    0,
+    answers.findIndex(({ answer }) => answer === "looks"),
+  );
   expect(maps.length).toBeGreaterThan(0);
   for (const map of maps) expect(map).toMatchObject({ answer: "map", visible: first.visible, busy: "1" });
-  expect(maps.at(-1)!.viewpoint).toBe(answers.at(-1)!.viewpoint);
+  expect(maps.at(-1)!.viewpoint).toBe(answers[maps.length]!.viewpoint);
   const count = await inNode(dragonPositions("_res2"), (cloud) => cloud.visibleFrom(now.viewpoint, { looks: 3 }).count);
   expect(now).toMatchObject({ state: "ready", busy: 0, answer: "looks", visible: count, radius: 0, exponent: 0 });
   expect(now.inversion).toMatch(/^looks:[\d.e-]+,[\d.e-]+,[\d.e-]+$/);

@@ -213,7 +213,8 @@ export class Tools {
         // Otherwise the same press would submit the form that has just got the focus.
         event.preventDefault();
         const { width, height } = viewer.stage.size;
-        this.#click({ x: width / 2, y: height / 2, tolerance: TOLERANCE });
+        // The middle of what nothing covers: the cloud is framed there.
+        this.#click({ x: width / 2, y: (viewer.stage.shape.free * height) / 2, tolerance: TOLERANCE });
       }
     });
     this.#stage.addEventListener("keydown", (event) => {

@@ -295,7 +295,7 @@ export class VisiblePointCloudLayer<DataT = unknown> extends CompositeLayer<Visi
   /** @internal */
   applyMap(map: VisibilityMap, from: Place): void {
     this.state.map?.texture.destroy();
-    const texture = textureOf(this.context.device as unknown as TextureMaker, map.data);
+    const texture = textureOf(this.context.device, map.data);
     this.setState({ map: { map, texture }, drawnFrom: from, center: map.center });
   }
 }

@@ -83,7 +83,7 @@ export class MapExtension extends LayerExtension {
   }
 
   override initializeState(this: Drawn): void {
-    this.setState({ hprNothing: textureOf(this.context.device as unknown as TextureMaker) });
+    this.setState({ hprNothing: textureOf(this.context.device) });
   }
 
   override draw(this: Drawn): void {

@@ -61,7 +61,7 @@ export async function readGltf(reading: Reading): Promise<CloudFile> {
     const attributes = each.geometry.attributes as Record<string, Attribute>;
     const positions = position(each);
     for (const matrix of each.matrices) {
-      step(reading, (reading.source.size * builder.rows) / total);
+      step(reading, (reading.source.size * builder.rows) / Math.max(1, total));
       for (let vertex = 0; vertex < positions.count; vertex++) {
         if (!builder.takes()) continue;
         point.fromBufferAttribute(positions, vertex).applyMatrix4(matrix);
