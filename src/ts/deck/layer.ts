@@ -13,7 +13,7 @@ import { isFarFrom, type Place } from "../query/place.js";
 import { isBinary, positionsOf } from "./data.js";
 import { Frame } from "./frame.js";
 import { LayerCloud } from "./layer-cloud.js";
-import { MapExtension, type MapOnCard, textureOf, type TextureMaker } from "./map-extension.js";
+import { MapExtension, type MapOnCard, textureOf } from "./map-extension.js";
 
 /** The properties of a `PointCloudLayer`, and the viewpoint. */
 export type VisiblePointCloudLayerProps<DataT = unknown> = PointCloudLayerProps<DataT> & {
