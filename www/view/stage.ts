@@ -72,8 +72,6 @@ export class Stage {
 
   /** Width by height of the picture, and the share of its height, from the top, that nothing covers. */
   get shape(): { aspect: number; free: number } {
-    // The observer of what covers the picture may not have been called yet.
-    this.refit();
     return { aspect: this.camera.aspect, free: this.#free };
   }
 
