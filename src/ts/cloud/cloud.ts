@@ -278,7 +278,10 @@ export class PointCloud {
     return step.value;
   }
 
-  /** Asks all views of a task, one after another. */
+  /**
+   * Asks all views of a task, one after another.
+   * @hidden
+   */
   [SURVEY]<Result>(...[, options, names, read]: SurveyQuestion<Result>): Result {
     this.#core.requireOpen();
     const given = givenOptions(options, names);

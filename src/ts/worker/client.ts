@@ -353,7 +353,10 @@ export class WorkerPointCloud {
     await this.#queue.close(new HprError("disposed", "this cloud has been disposed of"));
   }
 
-  /** Answers all views of a task, as the options of the request say. */
+  /**
+   * Answers all views of a task, as the options of the request say.
+   * @hidden
+   */
   async [SURVEY]<Result>(...[method, options, names, read]: SurveyQuestion<Result>): Promise<Result> {
     this.#queue.requireOpen();
     const given = givenOptions(options, names, REQUEST_OPTIONS);
