@@ -1,29 +1,195 @@
+import { createRequire } from "node:module";
+import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
-import { asciiPly, ball } from "./clouds.js";
-import { openReady, served } from "./support.js";
+import { oracleFor } from "../../www/compare/oracles.js";
+import { Projected, zBuffer } from "../../www/compare/zbuffer.js";
+import { readFaces } from "../../www/loaders/faces.js";
+import { make as makeRoom } from "../../www/samples/living-room.js";
+import { grid, type Mesh } from "../../www/samples/mesh.js";
+import { make as makeRings, skinOfRings } from "../../www/samples/rings.js";
+import { RayTracer } from "../fidelity/rays.js";
+import { errorsOf } from "../fidelity/score.js";
+import { asciiPly, ball, text } from "./clouds.js";
+import { choose } from "./files.js";
+import { inNode, openReady, served, upToDate } from "./support.js";
 
-test("How right is it? has the errors of the comparison with the true surface, and the looks' are the fewest", async () => {
-  // The whole bunny is in the picture, so both count the same points.
-  const page = await openReady("?sample=bunny&compare=0.5&against=surface");
-  const figures = page.locator("#compare-figures");
-  await expect.poll(() => figures.getAttribute("data-counts"), { timeout: 60_000 }).toMatch(/\d,/);
-  const [, , wrong, missed, hullWrong, hullMissed] = (await figures.getAttribute("data-counts"))!
-    .split(",")
-    .map(Number);
+const { positions: corners, cells } = createRequire(import.meta.url)("bunny") as {
+  positions: number[][];
+  cells: number[][];
+};
+const bunny: Mesh = { positions: Float32Array.from(corners.flat()), triangles: Uint32Array.from(cells.flat()) };
+const TOLERANCE = 1.75;
+interface Screen {
+  width: number;
+  height: number;
+  /** The size in pixels of a unit length at distance 1. */
+  pixels: number;
+}
+
+/**
+ * Follows the definition of the z-buffer, point by point and pixel by pixel. Returns 2 for a point out of the picture,
+ * 1 if no splat over the point's pixel is much nearer, else 0.
+ */
+function slowly(
+  seen: { x: number; y: number; depth: number }[],
+  { width, height, pixels }: Screen,
+  splat: number,
+): number[] {
+  const inside = ({ x, y, depth }: (typeof seen)[number]) => depth > 0 && x >= 0 && x < width && y >= 0 && y < height;
+  const covers = (other: (typeof seen)[number], column: number, row: number) => {
+    const [across, down] = [column + 0.5 - other.x, row + 0.5 - other.y];
+    return splat > 3 ? Math.hypot(across, down) <= splat / 2 : Math.max(Math.abs(across), Math.abs(down)) <= splat / 2;
+  };
+  return seen.map((own) => {
+    if (!inside(own)) return 2;
+    const [column, row] = [Math.floor(own.x), Math.floor(own.y)];
+    const nearest = Math.min(
+      ...seen.filter((other) => inside(other) && covers(other, column, row)).map(({ depth }) => depth),
+    );
+    return own.depth - (TOLERANCE * splat * own.depth) / pixels <= nearest ? 1 : 0;
+  });
+}
+
+test.for([1, 2, 3, 4, 9, 24])("the z-buffer agrees with its definition (splats of %i pixels)", (splat) => {
+  // A bumpy ball in front of a wall. Some points are out of the picture or behind the camera.
+  // The camera looks from the origin along −z.
+  const wall = grid(12, 12, (u, v) => [20 * u - 10, 16 * v - 8, -14]).positions;
+  const local = Float32Array.from([
+    ...ball(400).map((value, i) => value - (i % 3 === 2 ? 5 : 0)),
+    ...wall,
+    0.5,
+    0.5,
+    3,
+  ]);
+  const [width, height, pixels] = [160, 120, 150];
+  const matrix = [(2 * pixels) / width, 0, 0, 0, 0, (2 * pixels) / height, 0, 0, 0, 0, -1, -1, 0, 0, -0.2, 0];
+  const said = zBuffer(new Projected(local, { matrix, width, height, near: 0.1, pixels }), splat);
+  const seen = Array.from({ length: local.length / 3 }, (_, i) => {
+    const [x, y, depth] = [local[3 * i]!, local[3 * i + 1]!, -local[3 * i + 2]!];
+    return { x: width / 2 + (x * pixels) / depth, y: height / 2 - (y * pixels) / depth, depth };
+  });
+  expect([...said]).toEqual(slowly(seen, { width, height, pixels }, splat));
+  for (const kind of [0, 1, 2]) {
+    expect(said.filter((one) => one === kind).length, `points said to be ${kind}`).toBeGreaterThan(3);
+  }
+});
+
+test("the airplane's skin is closed: each edge has two triangles", () => {
+  const triangles = skinOfRings();
+  const edges = new Map<string, number>();
+  for (let i = 0; i < triangles.length; i++) {
+    const pair = [triangles[i]!, triangles[i % 3 === 2 ? i - 2 : i + 1]!].sort((a, b) => a - b).join();
+    edges.set(pair, (edges.get(pair) ?? 0) + 1);
+  }
+  expect([...edges.values()].every((count) => count === 2)).toBe(true);
+  expect(new Set(triangles).size).toBe(makeRings().positions.length / 3);
+});
+
+test("faces of the user's files are read and cut into triangles", async () => {
+  const read = (content: string | Uint8Array, vertices = 5) => {
+    const blob = new Blob([typeof content === "string" ? content : new Uint8Array(content)]);
+    return readFaces({ name: "mesh", blob }, vertices).then((triangles) => [...triangles]);
+  };
+  const obj = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1/1/1 2//1 3\nf -4 -3 -2 -1\nv 0 0 1\nf 1 2 3 4 5\n";
+  expect(await read(obj)).toEqual([0, 1, 2, 0, 1, 2, 0, 2, 3, 0, 1, 2, 0, 2, 3, 0, 3, 4]);
+  const header = (format: string) =>
+    `ply\nformat ${format} 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\nelement face 2\nproperty uchar flag\nproperty list uchar int vertex_indices\nend_header\n`;
+  expect(await read(`${header("ascii")}${"0 0 0\n".repeat(5)}\n7 3 0 1 2\n7 4 1 2 3 4\n`)).toEqual([
+    0, 1, 2, 1, 2, 3, 1, 3, 4,
+  ]);
+  const rows = new DataView(new ArrayBuffer(60 + 14 + 18));
+  let at = 60;
+  for (const face of [
+    [0, 1, 2],
+    [1, 2, 3, 4],
+  ]) {
+    rows.setUint8(at, 7);
+    rows.setUint8(at + 1, face.length);
+    face.forEach((corner, i) => {
+      rows.setInt32(at + 2 + 4 * i, corner, true);
+    });
+    at += 2 + 4 * face.length;
+  }
+  expect(await read(Buffer.concat([text(header("binary_little_endian")), new Uint8Array(rows.buffer)]))).toEqual([
+    0, 1, 2, 1, 2, 3, 1, 3, 4,
+  ]);
+  await expect(read(obj, 4)).rejects.toThrow("mesh cannot be read: it has faces whose points are missing");
+  await expect(read(`${header("ascii")}${"0 0 0\n".repeat(5)}7 3 0 1 2\n`)).rejects.toThrow("it ends after 1 of the");
+  await expect(
+    read(Buffer.concat([text(header("binary_little_endian")), new Uint8Array(rows.buffer, 0, 80)])),
+  ).rejects.toThrow();
+});
+
+test("the scanner of the street sees all points that its own beams met", async () => {
+  const street = await oracleFor({ sample: "street" }, new Float32Array());
+  const sees = street.from([-21, 1.1, 1.75]);
+  // These points belong to the first of three stations. The first 60,000 points are from this station.
+  const tried = Array.from({ length: 6000 }, (_, i) => 7 * i);
+  expect(tried.filter((i) => !sees(i))).toEqual([]);
+  // From the other end of the street, many points are hidden.
+  const other = street.from([22, 0.9, 1.75]);
+  const share = tried.filter(other).length / tried.length;
+  expect(share).toBeGreaterThan(0.1);
+  expect(share).toBeLessThan(0.8);
+});
+
+test("in the room the ceiling is seen and the floor under the rug is hidden, also with noise", async () => {
+  const room = await oracleFor({ sample: "room" }, new Float32Array());
+  const { positions } = makeRoom();
+  expect(room.count).toBe(positions.length / 3);
+  const sees = room.from([-0.2, 2.4, 0.3]);
+  const share = (like: (x: number, y: number, z: number) => boolean) => {
+    const chosen = Array.from({ length: room.count }, (_, i) => i).filter((i) =>
+      like(positions[3 * i]!, positions[3 * i + 1]!, positions[3 * i + 2]!),
+    );
+    expect(chosen.length).toBeGreaterThan(1000);
+    return chosen.filter(sees).length / chosen.length;
+  };
+  // The bookcase, the lamp and the plant hide small parts of the ceiling.
+  expect(share((_x, y) => y > 2.69)).toBeGreaterThan(0.97);
+  expect(share((x, y, z) => y < 0.004 && x > -1.99 && x < 0.59 && z > -1.09 && z < 0.79)).toBe(0);
+});
+
+/** Opens the judgment. Returns the shares in its table, row by row. */
+async function judged(page: Page): Promise<number[][]> {
   await page.getByRole("button", { name: "How right is it?" }).click();
   const rows = page.locator("#right tbody tr");
   await rows.first().waitFor();
-  const shares = await rows.evaluateAll((all) =>
-    all.map((row) => [...row.querySelectorAll("td")].slice(0, 3).map((cell) => Number.parseFloat(cell.textContent))),
+  return rows.evaluateAll((all) =>
+    all.map((row) => [...row.querySelectorAll("td")].map((cell) => Number.parseFloat(cell.textContent))),
   );
-  const total = await page.locator("#status").getAttribute("data-total");
-  const share = (count: number) => Number(((100 * count) / Number(total)).toFixed(2));
-  expect(shares[1]!.slice(0, 2)).toEqual([share(hullWrong!), share(hullMissed!)]);
-  expect(shares[2]!.slice(0, 2)).toEqual([share(wrong!), share(missed!)]);
+}
+
+test("How right is it? has the errors of one hull and of looks against rays, also for the same mesh as a file", async () => {
+  // The whole bunny is in the picture.
+  const page = await openReady("?sample=bunny");
+  const { viewpoint } = await upToDate(page);
+  const seen = new RayTracer(bunny).visibleFrom(viewpoint);
+  const shares = await inNode(bunny.positions, (cloud) =>
+    [{}, { looks: 3 as const }].map((options) => {
+      const { falsePositives, falseNegatives } = errorsOf(cloud.visibleFrom(viewpoint, options).mask(), seen);
+      return [falsePositives, falseNegatives, falsePositives + falseNegatives].map((share) => Number(share.toFixed(2)));
+    }),
+  );
+  const first = await judged(page);
+  expect(first.slice(1)).toEqual(shares);
+  expect(shares[1]![2]).toBeLessThan(shares[0]![2]!);
   expect(await page.locator("#right .best th").textContent()).toMatch(/^Three looks/);
   expect(await page.locator("#right canvas").count()).toBe(3);
   await page.keyboard.press("Escape");
   expect(await page.locator("#right").count()).toBe(0);
+
+  const obj = [
+    ...corners.map((corner) => `v ${Array.from(Float32Array.from(corner)).join(" ")}`),
+    ...cells.map((cell) => `f ${cell.map((corner) => corner + 1).join(" ")}`),
+  ];
+  await choose(page, "own.obj", text(obj.join("\n")));
+  await expect.poll(() => page.locator("#own").textContent()).toBe("own.obj");
+  const own = await upToDate(page);
+  const { falsePositives } = await inNode(bunny.positions, (cloud) =>
+    errorsOf(cloud.visibleFrom(own.viewpoint, { looks: 3 }).mask(), new RayTracer(bunny).visibleFrom(own.viewpoint)),
+  );
+  expect((await judged(page))[2]![0]).toBe(Number(falsePositives.toFixed(2)));
 });
 
 test("a cloud without a known surface says so", async () => {

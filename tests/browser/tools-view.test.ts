@@ -136,16 +136,16 @@ test.for([
   PHONE,
   { ...PHONE, viewport: { width: 320, height: 600 } },
 ])("every tool has its place and covers no other ($viewport.width px)", async (options) => {
-  const page = await openReady("?sample=dragon_res4&against=zbuffer", options);
+  const page = await openReady("?sample=dragon_res4", options);
   expect(await tool(page, "Stations").isVisible()).toBe(true);
-  for (const name of ["Compare", "Pick", "Measure", "Select", "Label", "Export"]) {
+  await tool(page, "Compare").click();
+  for (const name of ["Pick", "Measure", "Select", "Label", "Export"]) {
     await tool(page, name).click();
-    if (name === "Compare") await page.locator("#compare-figures td").first().waitFor();
     const flaws = await page.evaluate(() => {
       // A card may be scrolled. Only its part in the picture can cover something.
       const boxOf = (element: Element) => {
         const { left, right, top, bottom, width, height } = element.getBoundingClientRect();
-        const card = element.closest("#tool-card, #compare-card");
+        const card = element.closest("#tool-card");
         if (!card || card === element) return { left, right, top, bottom, width, height };
         const frame = card.getBoundingClientRect();
         const [low, high] = [Math.max(top, frame.top), Math.min(bottom, frame.bottom)];
@@ -155,7 +155,7 @@ test.for([
       const [canvas, stage] = ["view", "stage"].map((id) => boxOf(document.getElementById(id)!));
       const shown = [
         ...document.querySelectorAll(
-          "#tool-bar button, #tool-card button, #tool-card label, #tool-card output, #compare-card :is(button, label), #compare-note span",
+          "#tool-bar button, #tool-card button, #tool-card label, #tool-card output, #compare-note span",
         ),
       ].filter((element) => element.checkVisibility() && element.textContent !== "");
       const found: string[] = [];
@@ -180,8 +180,6 @@ test.for([
       return found;
     });
     expect(flaws, name).toEqual([]);
-    // Cards are seen one at a time.
-    if (name === "Compare") await tool(page, name).click();
   }
 });
 
@@ -234,29 +232,11 @@ test("a finger picks and labels; a long label stays in the picture, and its Remo
 });
 
 test("?embed=1 has no tools, but both sides of the divider have captions", async () => {
-  const page = await openReady("?sample=dragon_res4&embed=1&compare=0.4&against=zbuffer");
+  const page = await openReady("?sample=dragon_res4&embed=1&compare=0.4");
   expect(await page.locator("#tools").isVisible()).toBe(false);
   const note = page.locator("#compare-note span");
-  await expect
-    .poll(() => note.allTextContents())
-    .toEqual([expect.stringMatching(/^Z-buffer: [\d,]+$/), expect.stringMatching(/^3 looks: [\d,]+$/)]);
+  expect(await note.allTextContents()).toEqual(["All points", "Seen from here"]);
   for (const side of await note.all()) expect(await side.isVisible()).toBe(true);
-});
-
-test("on a phone, the choices of the comparison stay while another tool is open", async () => {
-  const page = await openReady("?sample=bunny&compare=0.5", PHONE);
-  await tool(page, "Pick").tap();
-  const [choices, card] = await Promise.all([
-    page.locator("#against").boundingBox(),
-    page.locator("#tool-card").boundingBox(),
-  ]);
-  expect(choices!.y).toBeGreaterThanOrEqual(card!.y + card!.height);
-  await page.locator("#against label", { hasText: "Z-buffer" }).tap();
-  await expect.poll(() => page.locator("#compare-note span").first().textContent()).toMatch(/^Z-buffer: /);
-  // The figures come back with the place for them.
-  expect(await page.locator("#compare-figures").isVisible()).toBe(false);
-  await tool(page, "Pick").tap();
-  expect(await page.locator("#compare-figures").isVisible()).toBe(true);
 });
 
 test("a label is measured once, however often the camera moves", async () => {

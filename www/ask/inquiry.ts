@@ -211,14 +211,6 @@ export class Inquiry {
     this.#viewFollower.restart();
   }
 
-  /** The answer of one hull for the same view as an answer from looks. `null`: it is not known. */
-  hullFor({ question }: TimedView): TimedView | null {
-    const hull = this.#hull;
-    const isSame =
-      hull !== null && stagesOf(question, false).some((stage) => isSameView(stage, hull.question, this.#size));
-    return isSame ? hull : null;
-  }
-
   /** Asks a question that is not for the picture. Questions for the picture go first. */
   async aside(question: ViewQuestion): Promise<ViewAnswer> {
     const answer = await askView(this.cloud, question);

@@ -1,30 +1,55 @@
 import type { KnownSurface } from "../samples/samples.ts";
 import type { Viewpoint } from "../settings/settings.ts";
 import type { Opened } from "../view/viewer.ts";
-import type { TruthAnswer, TruthQuestion } from "./protocol.ts";
-import { Reference } from "./reference.ts";
 
-/** A worker that traces rays from the points of a cloud to the true surface, and the question about one viewpoint. */
-export class Truth {
-  readonly worker: Reference<TruthQuestion, TruthAnswer>;
-  readonly #surface: KnownSurface;
-  readonly #origin: Viewpoint;
+/** The cloud and the viewpoint, in the coordinates of the surface. */
+export interface TruthQuestion {
+  surface: KnownSurface;
+  positions: Float32Array;
+  viewpoint: Viewpoint;
+}
 
-  constructor({ positions, cloud }: Pick<Opened, "positions" | "cloud">, surface: KnownSurface) {
+export type TruthReply =
+  { kind: "progress"; share: number } | { kind: "seen"; seen: Uint8Array } | { kind: "problem"; sentence: string };
+
+/**
+ * Traces rays to the true surface in a worker of its own. Resolves with 1 for each point that a ray from the viewpoint
+ * reaches, and rejects if the signal aborts.
+ */
+export async function traced(
+  { positions, cloud }: Pick<Opened, "positions" | "cloud">,
+  surface: KnownSurface,
+  at: Viewpoint,
+  signal: AbortSignal,
+  onProgress: (share: number) => void = () => undefined,
+): Promise<Uint8Array> {
+  // A mesh is traced in f32. Coordinates in f64, such as those of a map, are measured from the middle of the cloud.
+  const single = positions instanceof Float32Array;
+  const question: TruthQuestion = {
     // The worker has another address than the page, so it needs an absolute address.
-    this.#surface = "faces" in surface ? { faces: new URL(surface.faces, document.baseURI).href } : surface;
-    // A mesh is traced in f32. Coordinates in f64, such as those of a map, are measured from the middle of the cloud.
-    const single = positions instanceof Float32Array;
-    this.#origin = single ? [0, 0, 0] : cloud.center;
-    this.worker = new Reference(
-      new Worker(new URL("./truth-worker.ts", import.meta.url), { type: "module" }),
-      single ? positions : cloud.local,
-    );
-  }
-
-  /** The truth beside the visible points of an answer. `hull`: those of one hull, if the answer is another one. */
-  ask(at: Viewpoint, visible: Uint32Array, hull: Uint32Array | null): Promise<TruthAnswer | null> {
-    const viewpoint = at.map((value, axis) => value - this.#origin[axis]!) as Viewpoint;
-    return this.worker.ask({ surface: this.#surface, viewpoint, visible, hull });
+    surface: "faces" in surface ? { faces: new URL(surface.faces, document.baseURI).href } : surface,
+    positions: single ? positions : cloud.local,
+    viewpoint: single ? at : (at.map((value, axis) => value - cloud.center[axis]!) as Viewpoint),
+  };
+  const worker = new Worker(new URL("./truth-worker.ts", import.meta.url), { type: "module" });
+  try {
+    return await new Promise((resolve, reject) => {
+      signal.addEventListener("abort", () => {
+        reject(signal.reason as DOMException);
+      });
+      worker.onmessage = ({ data: reply }: MessageEvent<TruthReply>) => {
+        if (reply.kind === "progress") onProgress(reply.share);
+        else if (reply.kind === "seen") resolve(reply.seen);
+        else reject(new Error(reply.sentence));
+      };
+      worker.onerror = (event) => {
+        event.preventDefault();
+        const isLate = event instanceof ErrorEvent;
+        reject(new Error(isLate ? "the browser ran out of memory" : "a part of this page could not be loaded"));
+      };
+      worker.postMessage(question);
+    });
+  } finally {
+    worker.terminate();
   }
 }

@@ -1,5 +1,5 @@
-import { MOST_SPLAT } from "../settings/limits.ts";
-import { HIDDEN, OUTSIDE, VISIBLE } from "../view/parts.ts";
+/** What it says about a point. Of a point outside the picture it knows nothing. */
+export const [HIDDEN, VISIBLE, OUTSIDE] = [0, 1, 2] as const;
 
 /*
  * The usual way to find visible points. Every point is drawn as a splat of some pixels into a buffer of depths. A point
@@ -28,6 +28,8 @@ const TOLERANCE = 1.75;
 const SPACINGS = 1.75;
 /** Up to this width in pixels a splat is a square. A wider splat is a disc, like the points of the page. */
 const SQUARE = 3;
+/** The greatest width of a splat in pixels. */
+const MOST_SPLAT = 64;
 /** This many depths are enough to find the middle one. */
 const SAMPLE = 10_000;
 

@@ -1,5 +1,5 @@
 import "./how.css";
-import { Truth } from "../compare/truth.ts";
+import { traced } from "../compare/truth.ts";
 import { upVector } from "../cloud/cloud.ts";
 import type { Store } from "../settings/store.ts";
 import { eased } from "../controls/ease.ts";
@@ -51,21 +51,21 @@ export async function showHow(viewer: Viewer, store: Store): Promise<void> {
     throw error;
   }
   const lesson = new Lesson(dialog, thinned, turnFrom(viewer, upVector(store.current.up)));
-  const { surface } = viewer.scene;
-  const truth = typeof surface === "string" ? null : new Truth(viewer.scene, surface);
+  const closing = new AbortController();
   dialog.addEventListener("close", () => {
-    truth?.worker.dispose();
+    closing.abort();
     lesson.end();
     dialog.remove();
   });
-  // With no points of ours, the third part is all that the true surface lets the eye see.
-  truth
-    ?.ask(at, new Uint32Array(), null)
-    .then((answer) => {
-      if (answer) lesson.setTruth(answer.parts.order.slice(answer.parts.ends[1], answer.parts.ends[2]));
-    })
-    // Without the truth, the lesson goes on with the automatic radius.
-    .catch(() => undefined);
+  const { surface } = viewer.scene;
+  if (typeof surface !== "string") {
+    traced(viewer.scene, surface, at, closing.signal)
+      .then((seen) => {
+        lesson.setTruth(seen);
+      })
+      // Without the truth, the lesson goes on with the automatic radius.
+      .catch(() => undefined);
+  }
   await lesson.begin();
 }
 
@@ -119,8 +119,9 @@ class Lesson {
     this.#fly();
   }
 
-  setTruth(indices: Uint32Array): void {
-    this.#seen = this.#thinned.marked(indices);
+  /** `seen`: 1 for each point of the whole cloud that the eye sees. */
+  setTruth(seen: Uint8Array): void {
+    this.#seen = this.#thinned.share(seen);
     this.#isTruth = true;
     this.#tell();
     this.#redraw();

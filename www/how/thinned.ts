@@ -60,11 +60,9 @@ export class Thinned {
     return { radius: answer.radius, visible: answer.mask(), faces: answer.triangles };
   }
 
-  /** The share of a list of points of the whole cloud: 1 for each thinned point that is in the list. */
-  marked(indices: Uint32Array): Uint8Array {
-    const marks = new Uint8Array(this.count);
-    for (const index of indices) if (index % this.#step === 0) marks[index / this.#step] = 1;
-    return marks;
+  /** Of numbers of all points, those of the thinned ones. */
+  share(all: Uint8Array): Uint8Array {
+    return Uint8Array.from({ length: this.count }, (_, i) => all[i * this.#step]!);
   }
 
   dispose(): void {

@@ -9,7 +9,7 @@ import type { Settings } from "../settings/settings.ts";
 import { type AskedView, findHome, type Home, inReachOnly } from "../view/framing.ts";
 import type { Opened } from "../view/viewer.ts";
 import type { Previewed } from "../view/waiting-room.ts";
-import { surfaceOf, usableAgainst, usableColor } from "./usable.ts";
+import { surfaceOf, usableColor } from "./usable.ts";
 import { touchingSize, usualLook } from "./usual.ts";
 
 /** A cloud to be opened, and the way in which it is to be shown. */
@@ -110,12 +110,6 @@ export async function openCloud(
   );
   own.color = color;
   const surface = surfaceOf(request, sample, loaded.isMesh);
-  const { against, notes: againstNote } = usableAgainst(
-    own.against ?? place.settings().against,
-    surface,
-    wished.against !== undefined,
-  );
-  own.against = against;
 
   const { fieldOfView: fov, up } = { ...usual, ...wished };
   const [station, ...stations] = loaded.taken?.stations ?? [];
@@ -172,7 +166,7 @@ export async function openCloud(
       view,
       homeFrom,
       stations: loaded.taken?.stations ?? [],
-      refusals: [...farNotes, ...colorNote, ...againstNote],
+      refusals: [...farNotes, ...colorNote],
       notes: loaded.notes ?? [],
     };
   } catch (error) {

@@ -1,7 +1,7 @@
 import type { Cloud } from "../cloud/cloud.ts";
 import type { LoadRequest, MadeRequest } from "../loaders/index.ts";
 import type { KnownSurface, Sample } from "../samples/samples.ts";
-import { type Against, OWN_COLORS } from "../settings/settings.ts";
+import { OWN_COLORS } from "../settings/settings.ts";
 import { colorChoices } from "../view/colors.ts";
 
 const NO_SURFACE = "A true surface is known only for samples, and for PLY and OBJ meshes that are shown whole.";
@@ -14,19 +14,6 @@ export function usableColor(color: string, cloud: Cloud, asked: boolean): { colo
   if (colorChoices(cloud).some(({ value }) => value === color)) return { color, notes: [] };
   const notes = asked ? [`The cloud has no “${color}” to color by, so it has its usual colors.`] : [];
   return { color: OWN_COLORS, notes };
-}
-
-/** The comparison if it suits this cloud. If the cloud's surface is not known, nothing can be compared with it. */
-export function usableAgainst(
-  against: Against,
-  surface: KnownSurface | string,
-  asked: boolean,
-): { against: Against; notes: string[] } {
-  if (against !== "surface" || typeof surface !== "string") return { against, notes: [] };
-  return {
-    against: "all",
-    notes: asked ? [`There is no true surface to compare with, so the comparison is with all points. ${surface}`] : [],
-  };
 }
 
 /**

@@ -83,7 +83,7 @@ export function startSession(wishes: Wishes, first: Source): void {
 /** The height at the bottom of the picture that the verbs or the tools cover, in CSS pixels. A corner does not count. */
 function coveredHeight(): number {
   const { bottom, width } = byId("view").getBoundingClientRect();
-  const heights = ["verbs", "tool-card", "compare-card", "tool-bar"].map((id) => {
+  const heights = ["verbs", "tool-card", "tool-bar"].map((id) => {
     const box = byId(id).getBoundingClientRect();
     return box.width > width / 2 ? bottom - box.top : 0;
   });

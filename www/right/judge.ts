@@ -1,10 +1,9 @@
 import { operatorOf, viewOf } from "../ask/question.ts";
 import { pictureFrom } from "../compare/picture.ts";
-import { Truth } from "../compare/truth.ts";
-import { Projected, zBuffer } from "../compare/zbuffer.ts";
+import { traced } from "../compare/truth.ts";
+import { Projected, VISIBLE, zBuffer } from "../compare/zbuffer.ts";
 import type { KnownSurface } from "../samples/samples.ts";
 import { USUAL_SETTINGS } from "../settings/settings.ts";
-import { VISIBLE } from "../view/parts.ts";
 import type { Viewer } from "../view/viewer.ts";
 
 /** What one method says about the points in the picture, beside the truth. */
@@ -29,19 +28,18 @@ export interface Judged {
 
 /**
  * Judges three methods by rays to the true surface, from the viewpoint of the last answer. Only the points in the picture
- * count, since a z-buffer knows no others. `null`: `signal` has aborted.
+ * count, since a z-buffer knows no others. Rejects if the signal aborts.
  */
 export async function judge(
   viewer: Viewer,
   surface: KnownSurface,
   onProgress: (share: number) => void,
   signal: AbortSignal,
-): Promise<Judged | null> {
+): Promise<Judged> {
   const { scene } = viewer;
   const { cloud, inquiry } = scene;
   const at = scene.answer.question.viewpoint;
-  const truth = await traced(new Truth(scene, surface), at, cloud.count, onProgress, signal);
-  if (truth === null) return null;
+  const truth = await traced(scene, surface, at, signal, onProgress);
 
   const projected = new Projected(cloud.local, pictureFrom(viewer, at));
   const said = zBuffer(projected, projected.splatFor(inquiry.spacing));
@@ -53,7 +51,7 @@ export async function judge(
     ["Three looks, as on this page", viewOf(at, settings)],
   ] as const) {
     const { visibility } = await inquiry.aside(question);
-    if (signal.aborted) return null;
+    signal.throwIfAborted();
     verdicts.push(verdictOf(method, visibility.mask()));
   }
   const inside = projected.depth.reduce((sum, depth) => sum + (depth > 0 ? 1 : 0), 0);
@@ -64,34 +62,10 @@ export async function judge(
     for (const [i, depth] of projected.depth.entries()) {
       if (depth === 0) continue;
       count++;
-      if (shown[i] === truth![i]) continue;
+      if (shown[i] === truth[i]) continue;
       if (shown[i]) wrong++;
       else missed++;
     }
     return { method, shown, wrong: wrong / count, missed: missed / count };
   }
-}
-
-/** The points that rays from the viewpoint reach. */
-async function traced(
-  truth: Truth,
-  at: [number, number, number],
-  count: number,
-  onProgress: (share: number) => void,
-  signal: AbortSignal,
-): Promise<Uint8Array | null> {
-  truth.worker.onProgress = onProgress;
-  const end = () => {
-    truth.worker.dispose();
-  };
-  signal.addEventListener("abort", end);
-  // With no points of ours, the third part is all that the true surface lets the eye see.
-  const answer = await truth.ask(at, new Uint32Array(), null);
-  signal.removeEventListener("abort", end);
-  end();
-  if (answer === null || signal.aborted) return null;
-  const { order, ends } = answer.parts;
-  const seen = new Uint8Array(count);
-  for (const index of order.subarray(ends[1], ends[2])) seen[index] = 1;
-  return seen;
 }

@@ -54,8 +54,9 @@ export async function showRight(viewer: Viewer): Promise<void> {
       },
       closing.signal,
     );
-    if (judged) body.replaceChildren(...judgment(judged));
+    body.replaceChildren(...judgment(judged));
   } catch (error) {
+    if (closing.signal.aborted) return;
     dialog.close();
     throw error;
   }

@@ -146,9 +146,6 @@ function settingsInAddress(now: Settings, usual: Usual): Record<string, string[]
   if ("exponent" in radius) texts[SETTINGS.radius.parameter] = [];
   if (now.color === STATION_COLORS) texts[SETTINGS.color.parameter] = [];
   if (!canLook(now)) texts[SETTINGS.looks.parameter] = [];
-  // The kind of comparison is needed only with a comparison, the width of its points only with the z-buffer.
-  if (now.compare === null) texts[SETTINGS.against.parameter] = [];
-  if (now.compare === null || now.against !== "zbuffer") texts[SETTINGS.splat.parameter] = [];
   return texts;
 }
 

@@ -35,8 +35,5 @@ export const POINT_SIZE = { least: 0.05, most: 50 };
 /** The limits of the vertical field of view, in degrees. */
 export const FIELD_OF_VIEW = { least: 5, most: 100 };
 
-/** The greatest width of a point in the z-buffer, in pixels. */
-export const MOST_SPLAT = 64;
-
 /** The farthest place from which a cloud can be looked at, in radii of the cloud. Further out, f32 is too coarse. */
 export const REACH = 1e6;

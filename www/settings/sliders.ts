@@ -1,4 +1,4 @@
-import { FIELD_OF_VIEW, MOST_EXPONENT, MOST_SPLAT } from "./limits.ts";
+import { FIELD_OF_VIEW, MOST_EXPONENT } from "./limits.ts";
 
 /** The track of a slider of the panel. The address may allow values beyond the ends of the track. */
 export interface Slider {
@@ -28,7 +28,6 @@ export const SLIDERS = {
   soft: { least: 0, most: 0.5, step: 0.01, text: (at) => (at === 0 ? "point lights" : at.toFixed(2)) },
   ambient: { least: 0, most: 1, step: 0.01, text: (at) => at.toFixed(2) },
   smoothing: { least: 0, most: 10, step: 1, text: (at) => `${at} ${at === 1 ? "round" : "rounds"}` },
-  splat: { least: 1, most: MOST_SPLAT, step: 1, text: (at) => `${at} px` },
   size: { least: 0.1, most: 5, step: 0.05, text: (at) => `${Number(at.toFixed(2))} ×` },
   fieldOfView: { ...FIELD_OF_VIEW, step: 1, text: (at) => `${Math.round(at)}°` },
   exponent: { least: 0, most: MOST_EXPONENT, step: 0.05, text: (at) => at.toFixed(2) },

@@ -19,11 +19,10 @@ import {
   MOST_LIGHTS,
   MOST_NEIGHBORS,
   MOST_ROUNDS,
-  MOST_SPLAT,
   POINT_SIZE,
   SMALL,
 } from "./limits.ts";
-import type { Against, HiddenMode, Inversion, Looks, Radius, ThemeChoice, Viewpoint, Viewpoints } from "./types.ts";
+import type { HiddenMode, Inversion, Looks, Radius, ThemeChoice, Viewpoint, Viewpoints } from "./types.ts";
 
 /*
  * The one table of settings. The address, the panel, the element's attributes and, with words.ts, the tables in the
@@ -190,21 +189,6 @@ export const SETTINGS = {
     usual: null,
     called: "place of the divider",
     otherwise: "the picture is not divided",
-  }),
-  against: setting<Against>({
-    parameter: "against",
-    ...oneOf<Against>("all", "zbuffer", "surface"),
-    usual: "all",
-    called: "comparison",
-    otherwise: "the comparison is with all points",
-  }),
-  splat: setting<number | "auto">({
-    parameter: "splat",
-    ...orWord(wholeBetween(1, MOST_SPLAT), "auto", "auto"),
-    values: `\`auto\` or an integer from 1 to ${MOST_SPLAT}`,
-    usual: "auto",
-    called: "width of the z-buffer’s points",
-    otherwise: "it is chosen by the view",
   }),
   color: setting<string>({
     parameter: "color",

@@ -21,6 +21,3 @@ export type ThemeChoice = "system" | "dark" | "light";
 
 /** One viewpoint, or five (it and a ring of four around it): a point is seen by any of the five, or by at least two. */
 export type Viewpoints = "one" | "any" | "two";
-
-/** The answer is compared with all points, with the z-buffer of the same picture, or with rays to the true surface. */
-export type Against = "all" | "zbuffer" | "surface";

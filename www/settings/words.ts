@@ -81,13 +81,6 @@ export const SETTING_WORDS: Record<SettingName, SettingWords> = {
     is: "the dividing line, as a share of the width",
     without: "none",
   },
-  against: {
-    is: "the left side: all points, the picture’s z-buffer, the true surface",
-    labels: { all: "All points", zbuffer: "Z-buffer", surface: "True surface" },
-  },
-  splat: {
-    is: "the z-buffer’s points, in pixels",
-  },
   color: {
     is: "colors",
   },

@@ -1,42 +1,29 @@
-import { AgainstPicture } from "../compare/against-picture.ts";
-import { AgainstSurface } from "../compare/against-surface.ts";
 import { byId } from "../controls/dom.ts";
 import { pressed } from "../controls/keys.ts";
 import { MIDDLE } from "../settings/limits.ts";
-import type { Settings } from "../settings/settings.ts";
 import type { Store } from "../settings/store.ts";
 import type { Viewer } from "../view/viewer.ts";
-import { CompareCard, type Sides } from "./compare-card.ts";
 
 /** Shares of the width, in the order of the keys: left, right, down, up, page down, page up, home, end. */
 const STEPS = [-0.02, 0.02, -0.02, 0.02, -0.1, 0.1, -1, 1];
 
-/** The line that divides the picture: the reference is to its left, our answer is to its right. */
+/** The line that divides the picture: all points are to its left, the points that can be seen to its right. */
 export class Compare {
   readonly #viewer: Viewer;
   readonly #store: Store;
   readonly #divider = byId("divider");
   readonly #note = byId("compare-note");
-  readonly #card: CompareCard;
-  /** `null` for a comparison with all points. */
-  #reference: AgainstPicture | AgainstSurface | null = null;
 
   constructor(viewer: Viewer, store: Store) {
     this.#viewer = viewer;
     this.#store = store;
-    this.#card = new CompareCard(store, () => {
-      if (!(this.#reference instanceof AgainstSurface)) return;
-      if (this.#reference.stopped) this.#reference.again();
-      else this.#reference.stop();
-    });
     const button = byId("tool-compare");
     button.addEventListener("click", () => {
       this.toggle();
     });
     this.#bindDivider();
-    store.follow((now, before) => {
-      button.setAttribute("aria-pressed", String(now.compare !== null));
-      if (now.against !== before.against || (now.compare === null) !== (before.compare === null)) this.drop();
+    store.follow(({ compare }) => {
+      button.setAttribute("aria-pressed", String(compare !== null));
       this.follow();
     });
   }
@@ -45,60 +32,17 @@ export class Compare {
     this.#store.change({ compare: this.#store.current.compare === null ? MIDDLE : null });
   }
 
-  /** Drops the reference: another cloud or another comparison is about to come. */
-  drop(): void {
-    this.#reference?.dispose();
-    this.#reference = null;
-    this.#viewer.showParts(null);
-  }
-
-  /** Updates the words on both sides. */
+  /** Called when a cloud is there, too. */
   follow(): void {
     const { compare } = this.#store.current;
     const idle = compare === null || this.#viewer.cloud === null;
     this.#divider.hidden = this.#note.hidden = idle;
-    this.#card.show(idle ? null : this.#viewer.scene.surface);
     if (idle) return;
-    const [left, right] = this.#note.children;
-    const sides = this.#sides();
-    left!.textContent = sides.left;
-    right!.textContent = sides.right;
     this.#note.style.setProperty("--at", `${100 * compare}%`);
     this.#divider.style.left = `${100 * compare}%`;
-    this.#divider.ariaValueNow = String(Math.round(100 * compare));
-    this.#divider.ariaValueText = `${sides.left} on the left ${this.#divider.ariaValueNow} %, ${sides.right} on the right`;
-  }
-
-  /** Called every frame. */
-  place(): void {
-    if (this.#viewer.cloud === null) return;
-    const { current } = this.#store;
-    if (current.compare === null) return;
-    this.#reference ??= this.#begin(current);
-    this.#reference?.follow(current);
-  }
-
-  #begin({ against }: Settings): AgainstPicture | AgainstSurface | null {
-    const { surface } = this.#viewer.scene;
-    const changed = () => {
-      this.follow();
-    };
-    if (against === "zbuffer") return new AgainstPicture(this.#viewer, changed);
-    return against === "surface" && typeof surface !== "string"
-      ? new AgainstSurface(this.#viewer, surface, changed)
-      : null;
-  }
-
-  #sides(): Sides {
-    return this.#compared(this.#viewer.scene.cloud.count) ?? { left: "All points", right: "Seen from here" };
-  }
-
-  /** Shows the figures; `null` as long as there are none. */
-  #compared(total: number): Sides | null {
-    if (this.#reference instanceof AgainstPicture) return this.#card.showPicture(this.#reference);
-    if (this.#reference instanceof AgainstSurface) return this.#card.showSurface(this.#reference, total);
-    this.#card.showAll();
-    return null;
+    const percent = String(Math.round(100 * compare));
+    this.#divider.ariaValueNow = percent;
+    this.#divider.ariaValueText = `All points on the left ${percent} %, seen from here on the right`;
   }
 
   #bindDivider(): void {

@@ -1,7 +1,6 @@
 import "../styles/tools.css";
 import "../styles/tool-card.css";
 import "../styles/divider.css";
-import "../styles/compare.css";
 import { Vector3 } from "three";
 import { upVector } from "../cloud/cloud.ts";
 import { byId, nextFrame } from "../controls/dom.ts";
@@ -141,7 +140,6 @@ export class Tools {
     this.#patience.clear();
     for (const tool of this.#tools) tool.clear?.();
     this.#edits.clear();
-    this.#compare.drop();
   }
 
   /** Called when a cloud is shown. */
@@ -159,7 +157,6 @@ export class Tools {
   place(): void {
     this.#patience.follow();
     this.#marks.place();
-    this.#compare.place();
     this.#information.follow();
     this.#scaleBar.place();
   }

@@ -42,7 +42,7 @@ const fragmentShader = /* glsl */ `
   uniform vec2 planes;
   uniform vec3 background;
   uniform float reach, strength, softness;
-  uniform bool layer, shadesAll;
+  uniform bool shadesAll;
   /* How opaque all points are where the scene is empty, and up to which pixel from the left they are drawn alone. */
   uniform float behind, alone;
   /* The distance in pixels of the first neighbors that a gap is looked for between. 0: gaps stay. */
@@ -118,7 +118,7 @@ const fragmentShader = /* glsl */ `
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     bool isAlone = gl_FragCoord.x < alone;
     float depth = isAlone ? 1.0 : texelFetch(depths, pixel, 0).r;
-    if (depth >= 1.0 && !isAlone && !layer && behind < 1.0 && isNearPoints(pixel)) {
+    if (depth >= 1.0 && !isAlone && behind < 1.0 && isNearPoints(pixel)) {
       pixel = acrossGap(pixel);
       depth = texelFetch(depths, pixel, 0).r;
     }
@@ -127,7 +127,6 @@ const fragmentShader = /* glsl */ `
       result = vec4(shaded(colors, depths, pixel, depth), 1.0);
       return;
     }
-    if (layer) discard;
     depth = isAlone || behind > 0.0 ? texelFetch(allDepths, pixel, 0).r : 1.0;
     gl_FragDepth = depth;
     vec3 color = background;
@@ -186,7 +185,6 @@ export class EyeDome {
         reach: { value: REACH },
         strength: { value: STRENGTH },
         softness: { value: 1 },
-        layer: { value: false },
         shadesAll: { value: true },
       },
     });
@@ -218,13 +216,8 @@ export class EyeDome {
       this.#drawInto(this.#allTarget, renderer, all.scene, camera);
     }
     this.#shade(renderer, scene, camera);
-    this.#draw(renderer, false);
-  }
-
-  /** Draws a scene as a layer over the one before, whatever their depths are. */
-  renderOver(renderer: WebGLRenderer, scene: Scene, camera: PerspectiveCamera): void {
-    this.#shade(renderer, scene, camera);
-    this.#draw(renderer, true);
+    renderer.clear();
+    renderer.render(this.#screen, this.#camera);
   }
 
   dispose(): void {
@@ -255,14 +248,6 @@ export class EyeDome {
     renderer.clear();
     renderer.render(scene, camera);
     renderer.setRenderTarget(null);
-  }
-
-  /** Draws onto the screen: a layer over the picture, or a new picture. */
-  #draw(renderer: WebGLRenderer, layer: boolean): void {
-    this.#material.uniforms["layer"]!.value = layer;
-    this.#material.depthTest = this.#material.depthWrite = !layer;
-    if (!layer) renderer.clear();
-    renderer.render(this.#screen, this.#camera);
   }
 }
 

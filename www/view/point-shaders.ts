@@ -3,8 +3,6 @@ import { TINT_SHADER } from "./attributes.ts";
 
 /** The greatest width of a point in pixels, of points that touch and of small ones. */
 export const MOST_PIXELS = { touching: 160, small: 5 };
-/** A number of device pixels that is wider than any picture. */
-export const EVERYWHERE = 1e9;
 
 export const vertexShader = /* glsl */ `
   ${TINT_SHADER}
@@ -35,13 +33,10 @@ export const vertexShader = /* glsl */ `
 `;
 
 export const fragmentShader = /* glsl */ `
-  /* It is drawn between these two distances from the left, in pixels. */
-  uniform vec2 between;
   varying vec3 tint;
   varying float size;
 
   void main() {
-    if (gl_FragCoord.x < between.x || gl_FragCoord.x > between.y) discard;
     // Below three pixels a disc and a square look alike.
     if (size > 3.0 && length(gl_PointCoord - 0.5) > 0.5) discard;
     gl_FragColor = vec4(tint, 1.0);

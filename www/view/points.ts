@@ -5,7 +5,6 @@ import {
   DataTexture,
   DynamicDrawUsage,
   FloatType,
-  Group,
   Points,
   RedFormat,
   ShaderMaterial,
@@ -15,11 +14,10 @@ import {
 } from "three";
 import type { VisibilityMap } from "hidden-point-removal";
 import type { Cloud } from "../cloud/cloud.ts";
-import type { Parts } from "./parts.ts";
 import { TOUCHING_FROM } from "../settings/limits.ts";
 import type { HiddenMode } from "../settings/settings.ts";
 import { type CloudAttributes, display } from "./attributes.ts";
-import { EVERYWHERE, fragmentShader, MOST_PIXELS, vertexShader } from "./point-shaders.ts";
+import { fragmentShader, MOST_PIXELS, vertexShader } from "./point-shaders.ts";
 import type { Theme } from "./theme.ts";
 
 /** The share of a hidden point's own color that the theme's color for hidden points covers. */
@@ -38,24 +36,14 @@ type Draw = Points<BufferGeometry, ShaderMaterial>;
  *                solid ────   ghost ───────
  *
  * While the camera moves, both draw all points without an index, and the vertex shader leaves out points by a map.
- *
- * Beside a reference the draws are the parts of `Parts`: points that both see are drawn everywhere, the others on one side.
  */
 export class CloudPoints {
   readonly solid: Draw;
   readonly ghost: Draw;
-  /** Points that only our answer shows: mostly behind points of the reference. */
-  readonly extra: Draw;
-  /** The other differences between our answer and the reference. */
-  readonly different = new Group();
   /** All points, whatever the answer is, as any viewer shows them. */
   readonly all: Draw;
-  /** Points that only the reference shows; a part of `different`. */
-  readonly #missing: Draw;
   readonly #order: BufferAttribute;
   readonly #spacing: number;
-  /** The draws of one order, in that order. */
-  readonly #parts: Draw[];
   readonly #draws: Draw[];
   #theme: Theme;
   #ghostly = false;
@@ -68,10 +56,6 @@ export class CloudPoints {
     hprMargins: { value: new Vector4() },
   };
   #hiddenListed = true;
-  /** The place of the divider, as a share of the picture's width. Hidden points are to its left. */
-  #divider = 1;
-  /** Whether points that only the reference shows are drawn on both sides. */
-  #fill = false;
 
   constructor(cloud: Cloud, attributes: CloudAttributes, theme: Theme) {
     this.#theme = theme;
@@ -94,7 +78,6 @@ export class CloudPoints {
           most: { value: 1 },
           cover: { value: new Color() },
           coverage: { value: coverage },
-          between: { value: new Vector2(0, EVERYWHERE) },
           byMap: { value: 0 },
           ...this.#map,
         },
@@ -105,14 +88,8 @@ export class CloudPoints {
     };
     this.solid = draw(0);
     this.ghost = draw(COVERAGE);
-    this.extra = draw(1);
-    this.#missing = draw(1);
-    const [missing, outside] = [this.#missing, draw(0)];
-    this.different.add(missing, outside);
-    this.extra.visible = this.different.visible = false;
-    this.#parts = [this.solid, this.extra, missing, outside, this.ghost];
     this.all = draw(0, null);
-    this.#draws = [...this.#parts, this.all];
+    this.#draws = [this.solid, this.ghost, this.all];
     for (const each of this.#draws) {
       each.onBeforeRender = (renderer, _scene, camera) => {
         const { x: width, y: height } = renderer.getDrawingBufferSize(new Vector2());
@@ -122,10 +99,6 @@ export class CloudPoints {
         const kind = this.#width < TOUCHING_FROM * this.#spacing ? "small" : "touching";
         uniforms["most"]!.value = MOST_PIXELS[kind] * renderer.getPixelRatio();
         uniforms["least"]!.value = each === this.ghost ? least / 1.5 : least;
-        const left = each === this.ghost || (each === missing && !this.#fill);
-        const right = each === this.extra || each === outside;
-        const at = this.#divider * width;
-        (uniforms["between"]!.value as Vector2).set(right ? at : 0, left ? at : EVERYWHERE);
       };
     }
     this.show("off");
@@ -137,9 +110,9 @@ export class CloudPoints {
     this.#order.clearUpdateRanges();
     (this.#order.array as Uint32Array).set(indices);
     this.#upload(0, indices.length);
-    this.extra.visible = this.different.visible = false;
     this.#drawBy(0);
-    this.#setRanges([indices.length, indices.length, indices.length, indices.length]);
+    this.solid.geometry.setDrawRange(0, indices.length);
+    this.ghost.geometry.setDrawRange(indices.length, this.#order.count - indices.length);
     this.#hiddenListed = false;
     if (this.ghost.visible) this.#listHidden();
   }
@@ -186,21 +159,7 @@ export class CloudPoints {
     this.#order.needsUpdate = true;
   }
 
-  /** Draws our answer beside a reference. With `fill` the reference's points fill our gaps on our side, too. Keeps `order`. */
-  setParts({ order, ends }: Parts, fill: boolean): void {
-    this.#order.array = order;
-    this.#order.clearUpdateRanges();
-    this.#order.needsUpdate = true;
-    this.#hiddenListed = true;
-    this.#fill = fill;
-    this.extra.visible = this.different.visible = true;
-    this.#drawBy(0);
-    this.#setRanges(ends);
-  }
-
-  /** Shows hidden points, up to a share of the picture's width. */
-  show(mode: HiddenMode, divider = 1): void {
-    this.#divider = divider;
+  show(mode: HiddenMode): void {
     this.ghost.visible = mode !== "off";
     if (this.ghost.visible && !this.#hiddenListed) this.#listHidden();
     this.#ghostly = mode === "dimmed";
@@ -210,12 +169,7 @@ export class CloudPoints {
 
   setTheme(theme: Theme): void {
     this.#theme = theme;
-    const colors: [Draw, string][] = [
-      [this.ghost, this.#ghostly ? theme.hiddenDimmed : theme.hidden],
-      [this.extra, theme.onlyOurs],
-      [this.#missing, theme.onlyReference],
-    ];
-    for (const [{ material }, color] of colors) material.uniforms["cover"]!.value = display(color);
+    this.ghost.material.uniforms["cover"]!.value = display(this.#ghostly ? theme.hiddenDimmed : theme.hidden);
   }
 
   /** Takes multiples of the rough distance between neighbors. Returns the width of a point in the cloud's units. */
@@ -225,20 +179,9 @@ export class CloudPoints {
     return this.#width;
   }
 
-  /** Gives each draw its part of the order. The hidden points are the last part. */
-  #setRanges(ends: readonly number[]): void {
-    let from = 0;
-    [...ends, this.#order.count].forEach((end, i) => {
-      this.#parts[i]!.geometry.setDrawRange(from, end - from);
-      from = end;
-    });
-  }
-
   #setWidths(): void {
     for (const { material } of this.#draws) material.uniforms["width"]!.value = this.#width;
-    for (const { material } of [this.ghost, this.extra]) {
-      material.uniforms["width"]!.value = Math.min(this.#width, HIDDEN_WIDTH * this.#spacing);
-    }
+    this.ghost.material.uniforms["width"]!.value = Math.min(this.#width, HIDDEN_WIDTH * this.#spacing);
   }
 
   dispose(): void {

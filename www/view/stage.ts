@@ -3,11 +3,10 @@ import { display } from "./attributes.ts";
 import { type AllPoints, EyeDome } from "./eye-dome.ts";
 import { type Theme, THEMES } from "./theme.ts";
 
-/** The canvas: one camera, the shaded points, points drawn through them, and an overlay among them without shading. */
+/** The canvas: one camera, the shaded points, and an overlay among them without shading. */
 export class Stage {
   readonly camera = new PerspectiveCamera(45, 1, 0.01, 100);
   readonly points = new Scene();
-  readonly through = new Scene();
   readonly #all: AllPoints = { scene: new Scene(), opacity: 0, alone: 0 };
   readonly overlay = new Scene();
   /** Called before each frame, even if that frame need not be drawn. */
@@ -210,7 +209,7 @@ export class Stage {
     this.onFrame();
     const from = this.camera.matrixWorld.elements.join();
     if (!this.#changed && from === this.#drawnFrom) return;
-    this.#isBegun ||= [this.points, this.through, this.all, this.overlay].some(({ children }) => children.length > 0);
+    this.#isBegun ||= [this.points, this.all, this.overlay].some(({ children }) => children.length > 0);
     if (!this.#isBegun) return;
     if (from !== this.#drawnFrom) this.onCamera();
     this.#changed = false;
@@ -220,9 +219,6 @@ export class Stage {
     this.camera.updateProjectionMatrix();
 
     this.#eyeDome.render(this.#renderer, this.points, this.#all, this.camera);
-    if (this.through.children.some((child) => child.visible)) {
-      this.#eyeDome.renderOver(this.#renderer, this.through, this.camera);
-    }
     this.#renderer.render(this.overlay, this.camera);
   }
 }

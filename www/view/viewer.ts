@@ -3,7 +3,6 @@ import type { LightAnswer } from "../ask/lights.ts";
 import { isSamePlace } from "../ask/question.ts";
 import type { Detail, Inquiry, Mapped, TimedView } from "../ask/inquiry.ts";
 import type { Attribute, Cloud, Up } from "../cloud/cloud.ts";
-import type { Parts } from "./parts.ts";
 import type { KnownSurface } from "../samples/samples.ts";
 import { TOUCHING_FROM } from "../settings/limits.ts";
 import type { Settings, Viewpoint } from "../settings/settings.ts";
@@ -82,8 +81,6 @@ export class Viewer {
   /** Whether the cloud has not been drawn yet. */
   #isNew = false;
   #isFinal = false;
-  /** Whether the picture shows our answer beside a reference. */
-  #compared = false;
 
   /**
    * `polite`: the wheel and one finger over the picture scroll the page around it. `covered`: how many CSS pixels at the
@@ -188,7 +185,6 @@ export class Viewer {
     if (!this.#shown) return;
     for (const shown of [this.#shown, this.#overview]) if (shown) this.#end(shown);
     this.#shown = this.#overview = null;
-    this.#compared = false;
     this.stage.invalidate();
   }
 
@@ -239,7 +235,7 @@ export class Viewer {
       this.onAnswer(next, next.whole?.total ?? cloud.count);
     };
     inquiry.onMap = (mapped) => {
-      if (this.#shown !== shown || this.#compared) return;
+      if (this.#shown !== shown) return;
       shown.from = mapped.viewpoint;
       shown.byMap = true;
       points.setMap(mapped.map);
@@ -264,7 +260,7 @@ export class Viewer {
 
   /** Brings a cloud into the picture. `place` may move the camera. */
   #enter({ points, mesh }: Shown, place: () => void): void {
-    this.stage.points.add(points.solid, points.different, mesh.mesh);
+    this.stage.points.add(points.solid, points.ghost, mesh.mesh);
     this.stage.all.add(points.all);
     place();
     this.#applyLook(this.#store.current);
@@ -284,7 +280,6 @@ export class Viewer {
     if (before !== overview) this.#end(before);
     this.#overview = detail && overview;
     this.#shown = detail ? this.#made({ ...overview, ...detail }) : overview;
-    this.#compared = false;
     // The theme may have changed meanwhile.
     for (const part of [overview.attributes, overview.points, overview.mesh]) part.setTheme(this.#theme);
     this.#enter(this.#shown, () => undefined);
@@ -313,16 +308,6 @@ export class Viewer {
     if (!this.#shown) return;
     this.#shown.findHome = findHome;
     this.reset();
-  }
-
-  /** Draws the last answer beside a reference, even while newer answers come. `null`: draws only the newest answer. */
-  showParts(parts: Parts | null, fill = false): void {
-    if (!this.#shown || (!parts && !this.#compared)) return;
-    this.#compared = parts !== null;
-    if (parts) this.#shown.points.setParts(parts, fill);
-    else this.#shown.points.setVisible(this.scene.visible);
-    this.#setShape();
-    this.#applyLook(this.#store.current);
   }
 
   setTheme(theme: Theme): void {
@@ -389,16 +374,16 @@ export class Viewer {
     this.#shown!.answer = answer;
     this.#shown!.from = question.viewpoint;
     this.#shown!.byMap = false;
-    if (!this.#compared) points.setVisible(visibility.indices);
+    points.setVisible(visibility.indices);
     this.stage.invalidate();
     mesh.setTriangles(triangles);
     this.#setShape();
   }
 
-  /** Shows the surface instead of the points, unless there is a comparison. */
+  /** Shows the surface instead of the points. */
   #setShape(): void {
     const { points, mesh, answer } = this.#shown!;
-    this.#surfaceShown = answer.triangles !== null && !this.#compared;
+    this.#surfaceShown = answer.triangles !== null;
     mesh.mesh.visible = this.#surfaceShown;
     points.solid.visible = !this.#surfaceShown;
     this.#setShading();
@@ -422,12 +407,10 @@ export class Viewer {
     this.stage.invalidate();
   }
 
-  /** Hidden points are drawn where they are. Beside a reference, the differences are drawn through the other points. */
-  #applyLook({ hidden: chosen, freeze, compare, size, fieldOfView }: Settings): void {
+  #applyLook({ hidden: chosen, compare, size, fieldOfView }: Settings): void {
     const { points } = this.#shown!;
-    points.show(compare === null ? chosen : "off", compare ?? 1);
-    this.stage.setAll({ alone: compare === null || this.#compared ? 0 : compare });
-    (this.#compared && freeze === null ? this.stage.through : this.stage.points).add(points.ghost, points.extra);
+    points.show(compare === null ? chosen : "off");
+    this.stage.setAll({ alone: compare ?? 0 });
     this.stage.setTouching(size >= TOUCHING_FROM);
     this.stage.setPointWidth(points.setPointSize(size));
     this.stage.setFieldOfView(fieldOfView);
@@ -458,8 +441,7 @@ export class Viewer {
 
 /** Takes a cloud out of the picture. */
 function remove({ points, mesh }: Shown): void {
-  const { solid, different, extra, ghost, all } = points;
-  for (const drawn of [solid, different, extra, ghost, all, mesh.mesh]) drawn.removeFromParent();
+  for (const drawn of [points.solid, points.ghost, points.all, mesh.mesh]) drawn.removeFromParent();
 }
 
 /** The cosine of the angle, seen from the middle of the cloud, up to which one place may stand in for another. */

@@ -108,8 +108,8 @@ export class WaitingRoom<Left> {
 
   /** Everything else that the stage draws. */
   #showOthers(visible: boolean): void {
-    const { points, through, overlay, all } = this.#stage;
-    for (const drawn of [points, through, overlay, ...all.children]) drawn.visible = visible;
+    const { points, overlay, all } = this.#stage;
+    for (const drawn of [points, overlay, ...all.children]) drawn.visible = visible;
   }
 }
 
