@@ -41,7 +41,7 @@ export async function place(page: Page, index: number): Promise<Place> {
 }
 
 /** Tells where points are on the screen, as long as the picture has its size. */
-export async function places(page: Page): Promise<(index: number) => Place> {
+async function places(page: Page): Promise<(index: number) => Place> {
   const box = (await page.locator("#view").boundingBox())!;
   return (index) => {
     const [x, y, z] = at(index);

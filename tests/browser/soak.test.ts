@@ -71,9 +71,6 @@ async function around(page: Page): Promise<void> {
   await press(page, '[name="show"][value="points"]');
   for (const frozen of [true, false]) await press(page, `#freeze[aria-pressed="${!frozen}"]`);
   for (const compared of [true, false]) await press(page, `#tool-compare[aria-pressed="${!compared}"]`);
-  await press(page, "#tool-select");
-  await press(page, "#select-all");
-  await press(page, "#select-clear");
   await press(page, "#tool-measure");
   for (const end of ["first", "second"]) {
     await page.locator("#view").click({ position: { x: end === "first" ? 300 : 320, y: 120 } });

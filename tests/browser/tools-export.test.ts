@@ -120,46 +120,6 @@ test("the visible points saved as PLY, JSON and CSV equal the package's, with co
   expect((await upToDate(page)).refilters).toBeGreaterThan(before.refilters);
 });
 
-test("a selection is saved instead of the visible points, and only while there is a selection", async () => {
-  const page = await openBall();
-  const canvas = (await page.locator("#view").boundingBox())!;
-  const [x, y] = [canvas.x + canvas.width / 2, canvas.y + canvas.height / 2];
-  const box = { left: x - 70.3, top: y - 70.3, right: x + 70.3, bottom: y + 70.3 };
-  await tool(page, "Select").click();
-  await page.locator("#select-shape label", { hasText: "Box" }).click();
-  await page.getByLabel("Through the surface").check();
-  await page.mouse.move(box.left, box.top);
-  await page.mouse.down();
-  await page.mouse.move(box.right, box.bottom);
-  await page.mouse.up();
-  const inside = await within(page, everything, box);
-  await tool(page, "Export").click();
-  await page.locator("#export-what label", { hasText: "Selected" }).click();
-  const ply = await saved(page, "PLY");
-  expect(ply.name).toBe("utm-selection.ply");
-  expect(readPly(ply.content).rows).toEqual(inside.map((index) => at(index)));
-  expect((JSON.parse((await saved(page, "JSON")).content.toString()) as { indices: number[] }).indices).toEqual(inside);
-  await tool(page, "Select").click();
-  await page.locator("#select-clear").click();
-  await tool(page, "Export").click();
-  expect(await page.locator("#export-what").isVisible()).toBe(false);
-  expect((await saved(page, "CSV")).name).toBe("utm-visible.csv");
-});
-
-test("single precision stays single: a sample's points are saved with the same bits", async () => {
-  const page = await openReady("?sample=bunny");
-  await tool(page, "Export").click();
-  const { properties, rows } = readPly((await saved(page, "PLY")).content);
-  expect(properties).toEqual(["float x", "float y", "float z"]);
-  const { visible: count } = await status(page);
-  expect(rows.length).toBe(count);
-  const sample = await page.evaluate(async () => [
-    ...new Float32Array(await (await fetch("samples/bunny.bin")).arrayBuffer()),
-  ]);
-  const { indices } = JSON.parse((await saved(page, "JSON")).content.toString()) as { indices: number[] };
-  expect(rows).toEqual(indices.map((index) => sample.slice(3 * index, 3 * index + 3)));
-});
-
 test("the picture is saved as it is on the screen, with its marks", async () => {
   const page = await openBall(EVERY_PIXEL);
   await tool(page, "Measure").click();
@@ -173,7 +133,7 @@ test("the picture is saved as it is on the screen, with its marks", async () => 
       top: canvas.y + canvas.height / 2 - 40,
       bottom: canvas.y + canvas.height / 2 + 40,
     });
-    await clickPoint(page, places[0]!);
+    await clickPoint(page, places[0]);
   }
   expect(await page.locator("#marks .measure").count()).toBe(1);
   await tool(page, "Export").click();

@@ -99,7 +99,7 @@ test("the question mark opens the sheet with all keys; it keeps the focus and gi
   await page.keyboard.press("?");
   const sheet = page.getByRole("dialog", { name: "Mouse, touch and keys" });
   expect(await sheet.isVisible()).toBe(true);
-  for (const key of ["P", "M", "L", "S", "C", "E", "F", "H", "R", "?", "Esc"]) {
+  for (const key of ["P", "M", "L", "C", "E", "F", "H", "R", "?", "Esc"]) {
     expect(await sheet.locator("kbd").allTextContents()).toContain(key);
   }
   for (let i = 0; i < 5; i++) {
@@ -139,7 +139,7 @@ test.for([
   const page = await openReady("?sample=dragon_res4", options);
   expect(await tool(page, "Stations").isVisible()).toBe(true);
   await tool(page, "Compare").click();
-  for (const name of ["Pick", "Measure", "Select", "Label", "Export"]) {
+  for (const name of ["Pick", "Measure", "Label", "Export"]) {
     await tool(page, name).click();
     const flaws = await page.evaluate(() => {
       // A card may be scrolled. Only its part in the picture can cover something.
@@ -194,7 +194,7 @@ test("on a phone held upright, no card covers the cloud, and the cloud stays whe
   const { height, isUnder } = await boxes();
   expect(isUnder).toBe(true);
   expect(height).toBeGreaterThan(300);
-  for (const name of ["Pick", "Measure", "Select", "Label", "Stations"]) {
+  for (const name of ["Pick", "Measure", "Label", "Stations"]) {
     if (name !== "Pick") await tool(page, name).tap();
     await page.locator("#view").press("Enter");
     expect(await boxes(), name).toEqual({ height, isUnder });

@@ -1,7 +1,6 @@
-import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
-import { at, clickPoint, everything, lonely, MIDDLE, openBall, place, places, tool, visible, within } from "./ball.js";
-import { differentPixels, drag, openReady, picture, settled, status, upToDate, unfold } from "./support.js";
+import { at, clickPoint, everything, lonely, MIDDLE, openBall, place, tool, visible } from "./ball.js";
+import { drag, openReady, settled, status, upToDate, unfold } from "./support.js";
 
 const [X, Y, Z] = MIDDLE;
 
@@ -113,74 +112,6 @@ test("two clicks measure a distance in the file's units, any number of times", a
   expect(await page.locator("#marks .measure").count()).toBe(0);
 });
 
-async function dragBox(
-  page: Page,
-  { left, top, right, bottom }: { left: number; top: number; right: number; bottom: number },
-): Promise<void> {
-  await page.mouse.move(left, top);
-  await page.mouse.down();
-  await page.mouse.move(right, bottom, { steps: 4 });
-  await page.mouse.up();
-}
-
-test("box and lasso select visible points, or all through the surface; the camera stays", async () => {
-  const page = await openBall();
-  const seen = await visible(page);
-  const plain = await picture(page);
-  const before = await status(page);
-  const canvas = (await page.locator("#view").boundingBox())!;
-  const [x, y] = [canvas.x + canvas.width / 2, canvas.y + canvas.height / 2];
-  const half = { left: x - 90.3, top: y - 120.3, right: x + 20.3, bottom: y + 60.3 };
-  const count = async () => Number(await page.locator("#select-result").getAttribute("data-count"));
-
-  await tool(page, "Select").click();
-  await page.locator("#select-shape label", { hasText: "Box" }).click();
-  await dragBox(page, half);
-  const inside = await within(page, seen, half);
-  expect(inside.length).toBeGreaterThan(10);
-  expect(await count()).toBe(inside.length);
-  expect(await differentPixels(page, plain, await picture(page))).toBeGreaterThan(500);
-  expect(await status(page)).toEqual(before);
-
-  const more = { left: x + 30.3, top: y - 80.3, right: x + 90.3, bottom: y + 80.3 };
-  await page.keyboard.down("Shift");
-  await dragBox(page, more);
-  await page.keyboard.up("Shift");
-  expect(await count()).toBe(inside.length + (await within(page, seen, more)).length);
-  await page.keyboard.down("Alt");
-  await dragBox(page, half);
-  await page.keyboard.up("Alt");
-  expect(await count()).toBe((await within(page, seen, more)).length);
-
-  await page.getByLabel("Through the surface").check();
-  await dragBox(page, half);
-  expect(await count()).toBe((await within(page, everything, half)).length);
-
-  await page.getByLabel("Through the surface").uncheck();
-  await page.locator("#select-shape label", { hasText: "Lasso" }).click();
-  // A triangle around the upper left half of the box.
-  await page.mouse.move(half.left, half.top);
-  await page.mouse.down();
-  await page.mouse.move(half.right, half.top, { steps: 5 });
-  await page.mouse.move(half.left, half.bottom, { steps: 5 });
-  await page.mouse.up();
-  const triangle = inside
-    .map(await places(page))
-    .filter((at) => (at.x - half.left) / (half.right - half.left) + (at.y - half.top) / (half.bottom - half.top) < 1);
-  expect(await count()).toBe(triangle.length);
-
-  await page.getByRole("button", { name: "All in the picture" }).click();
-  expect(await count()).toBe(seen.length);
-  await page.locator("#view").press("Escape");
-  expect(await count()).toBe(0);
-  expect(await status(page)).toEqual(before);
-  await page.locator("#view").press("Escape");
-  await page.locator("#view").blur();
-  expect(await differentPixels(page, plain, await picture(page))).toBe(0);
-  await drag(page, 60, 0);
-  expect((await settled(page)).viewpoint).not.toEqual(before.viewpoint);
-});
-
 test("a label is shown as long as its point is visible", async () => {
   const page = await openBall();
   const seen = await visible(page);
@@ -213,31 +144,16 @@ test("a label is shown as long as its point is visible", async () => {
   expect(await page.locator("#marks .note, #marks .ring").count()).toBe(0);
 });
 
-test("marks and the selection do not go to the next cloud", async () => {
+test("marks do not go to the next cloud", async () => {
   const page = await openBall();
   const seen = await visible(page);
   const [a, b] = await lonely(page, seen, seen);
   await tool(page, "Measure").click();
   for (const index of [a!, b!]) await clickPoint(page, index);
-  await tool(page, "Select").click();
-  await page.getByRole("button", { name: "All in the picture" }).click();
   await page.locator("#sample").selectOption("dragon_res4");
   await page.locator('#status[data-total="5205"]').waitFor();
   await upToDate(page);
   expect(await page.locator("#marks .measure").count()).toBe(0);
-  expect(await page.locator("#select-result").getAttribute("data-count")).toBe("0");
-});
-
-test("a lasso around nothing says that it has found nothing", async () => {
-  const page = await openBall();
-  const box = (await page.locator("#view").boundingBox())!;
-  await tool(page, "Select").click();
-  await page.locator("#select-shape label", { hasText: "Box" }).click();
-  await dragBox(page, { left: box.x + 5, top: box.y + 5, right: box.x + 40, bottom: box.y + 40 });
-  expect(await page.locator("#select-result").textContent()).toBe("No visible point inside.");
-  await page.getByLabel("Through the surface").check();
-  await dragBox(page, { left: box.x + 5, top: box.y + 5, right: box.x + 40, bottom: box.y + 40 });
-  expect(await page.locator("#select-result").textContent()).toBe("No point inside.");
 });
 
 test("a double click goes to the point: it gets into the middle of the picture, at half its distance", async () => {

@@ -1,17 +1,17 @@
 import type { PreparedCloud } from "../cloud/cloud.ts";
 import { LoadProblem, missingPart } from "./problem.ts";
-import type { LoadReply, LoadRequest, MadeRequest } from "./protocol.ts";
+import type { LoadReply, LoadRequest } from "./protocol.ts";
 import script from "./worker.ts?worker&url";
 
 export { LoadProblem } from "./problem.ts";
-export type { LoadRequest, MadeRequest } from "./protocol.ts";
+export type { LoadRequest } from "./protocol.ts";
 
 /** A loading that has begun before anybody waits for it. */
 let ahead: { request: LoadRequest; loading: Loading } | null = null;
 
 /** Begins to load a cloud, before the page's other parts are there. `loadCloud` goes on with the same request. */
-export function loadAhead(request: LoadRequest | MadeRequest): void {
-  if (request.kind !== "made") ahead = { request, loading: new Loading(request) };
+export function loadAhead(request: LoadRequest): void {
+  ahead = { request, loading: new Loading(request) };
 }
 
 /** Ends the loading that has begun, if nobody will wait for it. */
@@ -21,16 +21,15 @@ export function forgetAhead(): void {
 }
 
 /**
- * Loads a cloud in its own worker, unless it is in memory already. So a large file does not block the page, and its
+ * Loads a cloud in its own worker. So a large file does not block the page, and its
  * memory is freed when the worker ends. `onPoints`: takes the points that have been read so far; see `LoadReply`.
  */
 export function loadCloud(
-  request: LoadRequest | MadeRequest,
+  request: LoadRequest,
   signal: AbortSignal,
   onProgress: (step: string, fraction: number | null) => void,
   onPoints: (points: Float32Array, first: [number, number, number]) => void = () => undefined,
 ): Promise<PreparedCloud> {
-  if (request.kind === "made") return Promise.resolve(request.make());
   const loading = ahead?.request === request ? ahead.loading : new Loading(request);
   ahead = null;
   return new Promise<PreparedCloud>((resolve, reject) => {

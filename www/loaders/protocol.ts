@@ -1,14 +1,6 @@
 import type { PreparedCloud } from "../cloud/cloud.ts";
 import type { GeneratorName } from "../samples/generators.ts";
 
-/** A cloud that is in memory already. `of`: the request that its points came from. */
-export interface MadeRequest {
-  kind: "made";
-  name: string;
-  make: () => PreparedCloud | Promise<PreparedCloud>;
-  of: LoadRequest | null;
-}
-
 /** A request of the page to the loading worker. Each worker gets one request. */
 export type LoadRequest =
   | { kind: "sample"; name: string; url: string }

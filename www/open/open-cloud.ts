@@ -3,7 +3,7 @@ import { WorkerPointCloud } from "hidden-point-removal/worker";
 import { Inquiry, isHang } from "../ask/inquiry.ts";
 import { WorkerCloud } from "../ask/worker-cloud.ts";
 import type { FileStation, Up } from "../cloud/cloud.ts";
-import { loadCloud, type LoadRequest, type MadeRequest } from "../loaders/index.ts";
+import { loadCloud, type LoadRequest } from "../loaders/index.ts";
 import type { Sample } from "../samples/samples.ts";
 import type { Settings } from "../settings/settings.ts";
 import { type AskedView, findHome, type Home, inReachOnly } from "../view/framing.ts";
@@ -14,7 +14,7 @@ import { touchingSize, usualLook } from "./usual.ts";
 
 /** A cloud to be opened, and the way in which it is to be shown. */
 export interface Wish {
-  request: LoadRequest | MadeRequest;
+  request: LoadRequest;
   sample: Sample | null;
   view: AskedView | null;
   /** Settings that belong to this cloud alone. */

@@ -1,5 +1,5 @@
 import type { Cloud } from "../cloud/cloud.ts";
-import type { LoadRequest, MadeRequest } from "../loaders/index.ts";
+import type { LoadRequest } from "../loaders/index.ts";
 import type { KnownSurface, Sample } from "../samples/samples.ts";
 import { OWN_COLORS } from "../settings/settings.ts";
 import { colorChoices } from "../view/colors.ts";
@@ -20,13 +20,7 @@ export function usableColor(color: string, cloud: Cloud, asked: boolean): { colo
  * The surface that the cloud was taken from, or a sentence if it is not known. The faces of the user's own mesh are
  * read again when they are needed.
  */
-export function surfaceOf(
-  asked: LoadRequest | MadeRequest,
-  sample: Sample | null,
-  isMesh = false,
-): KnownSurface | string {
-  const request = asked.kind === "made" ? asked.of : asked;
-  if (!request) return NO_SURFACE;
+export function surfaceOf(request: LoadRequest, sample: Sample | null, isMesh = false): KnownSurface | string {
   if (isMesh && request.kind === "file") return { file: request.file };
   if (isMesh && request.kind === "url") return { file: request.url };
   return sample?.surface ?? NO_SURFACE;

@@ -49,7 +49,6 @@ export class Opening {
     this.#stop();
   });
   #loading = new AbortController();
-  #whole: Source | null = null;
   /** The cloud that is being loaded. */
   #source: Source | null = null;
 
@@ -64,8 +63,8 @@ export class Opening {
     });
   }
 
-  /** Gives up a cloud that is being loaded, and loads this one. `whole`: the cloud of which it is a part. */
-  async open(source: Source, whole = source): Promise<void> {
+  /** Gives up a cloud that is being loaded, and loads this one. */
+  async open(source: Source): Promise<void> {
     this.onOpen(source);
     this.#loading.abort();
     const { signal } = (this.#loading = new AbortController());
@@ -73,7 +72,6 @@ export class Opening {
     this.#begin(source);
     try {
       await this.#show(source, signal);
-      this.#whole = whole;
     } catch (error) {
       if (signal.aborted) return;
       this.#end();
@@ -96,11 +94,6 @@ export class Opening {
   #say(sentence: string, { insteadOf }: Source): void {
     if (insteadOf === undefined) this.#parts.status.loading(sentence);
     this.#loadingSign.say(sentence);
-  }
-
-  /** The cloud on screen, or the cloud of which a part is on screen. */
-  get whole(): Source | null {
-    return this.#whole;
   }
 
   async #show(source: Source, signal: AbortSignal): Promise<void> {

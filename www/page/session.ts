@@ -58,8 +58,6 @@ export function startSession(wishes: Wishes, first: Source): void {
     changed: () => {
       address.touch();
     },
-    whole: () => opening.whole,
-    open: (source: Source, whole: Source) => opening.open(source, whole),
   };
   const workshop: Workshop = new Workshop(viewer, store, actions);
   const parts = { viewer, store, panel, address, workshop, status, message, notices };

@@ -20,8 +20,8 @@ interface Named {
   usual: Usual;
 }
 
-/** The parameters for marks, the selection and stations. tools/link.ts writes and reads them. */
-export const MARK_PARAMETERS = ["measure", "area", "profile", "label", "select", "station"] as const;
+/** The parameters for marks and stations. tools/link.ts writes and reads them. */
+export const MARK_PARAMETERS = ["measure", "label", "station"] as const;
 export type MarkParameter = (typeof MARK_PARAMETERS)[number];
 
 /** The parts of the page that are in the address beside the settings. */

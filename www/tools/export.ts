@@ -1,8 +1,5 @@
 import type { TimedView } from "../ask/inquiry.ts";
-import type { Wish } from "../open/open-cloud.ts";
-import type { CloudName } from "../settings/address.ts";
 import { byId } from "../controls/dom.ts";
-import { Segmented } from "../controls/segmented.ts";
 import { coordinatesAt, indexInFile } from "./figures.ts";
 import { BATCH, contentOf, copy, save, stemOf } from "./files.ts";
 import { pictureWithMarks } from "./picture.ts";
@@ -15,34 +12,20 @@ export interface ExportActions {
   link: () => string | null;
   /** Must be called when something of the tools has changed that is part of the address. */
   changed: () => void;
-  /** The cloud on screen, or the cloud of which a part is on screen. */
-  whole: () => OpenedCloud | null;
-  /** Shows another cloud, which is a part of `whole`. */
-  open: (cloud: OpenedCloud, whole: OpenedCloud) => Promise<void>;
 }
 
-/** A cloud as it was opened. */
-export interface OpenedCloud extends Wish {
-  /** Its name in the address. `null`: no address can open it. */
-  name: CloudName | null;
-  notes: string[];
-}
-
-/** Saves the visible or the selected points, or the picture; copies a link to the page. */
+/** Saves the visible points or the picture; copies a link to the page. */
 export class Export implements Tool {
   readonly name = "export";
   readonly uses = "nothing";
   readonly #bench: Bench;
-  readonly #selected: () => Uint32Array;
   readonly #actions: ExportActions;
   readonly #left: () => string[];
   readonly #output = byId("export-result");
-  readonly #what = new Segmented<"visible" | "selection">("export-what", () => undefined);
 
   /** `left`: the things that are too long for the link. */
-  constructor(bench: Bench, selected: () => Uint32Array, actions: ExportActions, left: () => string[]) {
+  constructor(bench: Bench, actions: ExportActions, left: () => string[]) {
     this.#bench = bench;
-    this.#selected = selected;
     this.#left = left;
     this.#actions = actions;
     this.#bind("export-ply", "ply", () => this.#ply());
@@ -53,27 +36,19 @@ export class Export implements Tool {
     byId("copy-link").addEventListener("click", () => void this.#copyLink());
   }
 
-  /** Offers the selection if there is one. */
   open(): void {
     this.#output.textContent = "";
-    const none = this.#selected().length === 0;
-    byId("export-what", HTMLFieldSetElement).hidden = none;
-    if (none) this.#what.value = "visible";
   }
 
   clear(): void {
     this.open();
   }
 
-  get #indices(): Uint32Array {
-    return this.#what.value === "selection" ? this.#selected() : this.#bench.viewer.scene.visible;
-  }
-
   #bind(id: string, ending: string, parts: () => Iterable<BlobPart> | Promise<Iterable<BlobPart>>): void {
     const button = byId(id, HTMLButtonElement);
     button.addEventListener("click", () => {
       if (!this.#bench.viewer.cloud) return;
-      const file = `${stemOf(this.#actions.name())}-${ending === "png" ? "picture" : this.#what.value}.${ending}`;
+      const file = `${stemOf(this.#actions.name())}-${ending === "png" ? "picture" : "visible"}.${ending}`;
       button.disabled = true;
       const run = async () => {
         try {
@@ -90,29 +65,24 @@ export class Export implements Tool {
 
   async #ply(): Promise<Iterable<BlobPart>> {
     const { plyParts } = await import("../../src/ts/formats/write/ply.js");
-    const { cloud, positions, answer } = this.#bench.viewer.scene;
-    const what = this.#what;
-    const indices = this.#indices;
-    const comments = [
-      `${what.value === "visible" ? "Visible" : "Selected"} points: ${indices.length} of ${cloud.count}`,
-      ...seenFrom(answer),
-    ];
+    const { cloud, positions, answer, visible: indices } = this.#bench.viewer.scene;
+    const comments = [`Visible points: ${indices.length} of ${cloud.count}`, ...seenFrom(answer)];
     return plyParts({ ...contentOf(cloud), positions, indices }, comments);
   }
 
   async #las(): Promise<Iterable<BlobPart>> {
     const { lasParts } = await import("../../src/ts/formats/write/las.js");
-    const { cloud, positions } = this.#bench.viewer.scene;
+    const { cloud, positions, visible: indices } = this.#bench.viewer.scene;
     const { colors, fields, facts } = cloud;
-    return lasParts({ positions, colors, fields, indices: this.#indices }, facts.las);
+    return lasParts({ positions, colors, fields, indices }, facts.las);
   }
 
   *#json(): Iterable<BlobPart> {
-    const { cloud, answer } = this.#bench.viewer.scene;
+    const { cloud, answer, visible } = this.#bench.viewer.scene;
     const { question, visibility } = answer;
     const head = {
       cloud: this.#actions.name(),
-      points: this.#what.value,
+      points: "visible",
       total: cloud.count,
       viewpoint: question.viewpoint,
       radius: visibility.radius,
@@ -122,7 +92,7 @@ export class Export implements Tool {
     };
     yield JSON.stringify(head).slice(0, -1);
     yield ',"indices":[';
-    yield* joined(this.#indices, ",", (index) => String(indexInFile(cloud, index)));
+    yield* joined(visible, ",", (index) => String(indexInFile(cloud, index)));
     yield "]}\n";
   }
 
@@ -130,7 +100,7 @@ export class Export implements Tool {
     const { scene } = this.#bench.viewer;
     yield "index,x,y,z\n";
     yield* joined(
-      this.#indices,
+      scene.visible,
       "\n",
       (index) => `${indexInFile(scene.cloud, index)},${coordinatesAt(scene, index).join()}`,
     );

@@ -70,14 +70,12 @@ export function wayBetween({ positions }: Placed, from: number, to: number, { sc
   return scale.map((length, axis) => length * (positions[3 * to + axis]! - positions[3 * from + axis]!));
 }
 
-/** A length with six digits: no scanner is more precise. `power`: 2 for an area. */
-export function measured(value: number, unit: Unit | null, power: 1 | 2 = 1): string {
+/** A length with six digits: no scanner is more precise. */
+export function measured(value: number, unit: Unit | null): string {
   const digits = Number(value.toPrecision(6));
   const text =
     Math.abs(digits) >= 1e7 || Math.abs(digits) < 1e-6
       ? String(digits)
       : digits.toLocaleString("en-US", { useGrouping: false, maximumFractionDigits: 12 });
-  const one = text === "1" ? "unit" : "units";
-  const name = unit ? unit.name : power === 2 ? `square ${one}` : one;
-  return `${text}\u00a0${name}${power === 2 && unit ? "²" : ""}`;
+  return `${text}\u00a0${unit?.name ?? (text === "1" ? "unit" : "units")}`;
 }

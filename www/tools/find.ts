@@ -1,6 +1,5 @@
 import { MOST_PIXELS } from "../view/point-shaders.ts";
 import type { Viewer } from "../view/viewer.ts";
-import { Area } from "./area.ts";
 import { Projection } from "./projection.ts";
 
 /** A place in the picture, in CSS pixels from its left and top, and the largest distance of a point from it. */
@@ -21,7 +20,7 @@ const LAYER = 4;
 export function pointAt(viewer: Viewer, { x, y, tolerance }: Spot, through: boolean): number | null {
   const { pointWidth, pixelRatio } = viewer.stage;
   const widest = MOST_PIXELS.touching / 2 / pixelRatio;
-  const among = candidates(viewer, through);
+  const among = through ? null : viewer.scene.visible;
   return (
     nearestAt(viewer, x, y, among, tolerance, () => tolerance) ??
     nearestAt(viewer, x, y, among, widest, (at) => Math.min(widest, pointWidth / 2 / at.lengthOf(1)))
@@ -39,7 +38,7 @@ function nearestAt(
 ): number | null {
   const found: { index: number; off: number; ahead: number }[] = [];
   let behind = Infinity;
-  const at = projectionOf(viewer);
+  const at = new Projection(viewer.scene.cloud.local, viewer.stage.camera, viewer.stage.size);
   // The box is a little larger than the circle. Points near the rim are decided below.
   const reach = most + 1;
   at.each({ left: x - reach, right: x + reach, top: y - reach, bottom: y + reach }, among, (index) => {
@@ -54,19 +53,6 @@ function nearestAt(
   return near.reduce((best, point) => (point.off < best.off ? point : best)).index;
 }
 
-/** All points within a closed line, ascending. */
-export function pointsWithin(viewer: Viewer, line: readonly { x: number; y: number }[], through: boolean): Uint32Array {
-  const area = new Area(line);
-  const among = candidates(viewer, through);
-  const found = new Uint32Array(among?.length ?? viewer.scene.cloud.count);
-  let count = 0;
-  const at = projectionOf(viewer);
-  at.each(area.box, among, (index) => {
-    if (area.holds(at.x, at.y)) found[count++] = index;
-  });
-  return found.slice(0, count);
-}
-
 /** Whether a point is among the ascending indices. */
 export function includes(indices: Uint32Array, index: number): boolean {
   let low = 0;
@@ -77,13 +63,4 @@ export function includes(indices: Uint32Array, index: number): boolean {
     else high = middle;
   }
   return indices[low] === index;
-}
-
-/** The visible points, or `null` for all. */
-function candidates(viewer: Viewer, through: boolean): Uint32Array | null {
-  return through ? null : viewer.scene.visible;
-}
-
-function projectionOf(viewer: Viewer): Projection {
-  return new Projection(viewer.scene.cloud.local, viewer.stage.camera, viewer.stage.size);
 }

@@ -12,13 +12,7 @@ export interface Bench {
   pointAt: (spot: Spot) => number | string;
   /** The name of the cloud. */
   name: () => string;
-  /** Selects these points, ascending. */
-  choose: (indices: Uint32Array) => void;
-  /** Whether another cloud is being shown that has other points of the same file. */
-  isEditing: () => boolean;
-  /** Whether hidden points count as well. */
-  through: () => boolean;
-  /** Must be called when marks or the selection have changed: they are part of the address. */
+  /** Must be called when marks have changed: they are part of the address. */
   changed: () => void;
   /** Runs something when the picture is final; see `Patience`. */
   whenFinal: (run: () => void, here?: boolean) => void;
@@ -26,9 +20,9 @@ export interface Bench {
 
 /** One tool of the bar. Its button is #tool-NAME, its words and controls are in #NAME-card. */
 export interface Tool {
-  readonly name: "pick" | "measure" | "select" | "label" | "export" | "stations";
-  /** Whether the tool uses clicks on the canvas, drags, or neither. */
-  readonly uses: "clicks" | "drags" | "nothing";
+  readonly name: "pick" | "measure" | "label" | "export" | "stations";
+  /** Whether the tool uses clicks on the canvas. */
+  readonly uses: "clicks" | "nothing";
   /** Called at a click, and for the middle of the picture when Enter is pressed. */
   click?(spot: Spot): void;
   /** Gives up a step that has been begun. Returns `false` if there is no such step. */

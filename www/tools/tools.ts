@@ -3,13 +3,12 @@ import "../styles/tool-card.css";
 import "../styles/divider.css";
 import { Vector3 } from "three";
 import { upVector } from "../cloud/cloud.ts";
-import { byId, nextFrame } from "../controls/dom.ts";
+import { byId } from "../controls/dom.ts";
 import { type Action, isKeyOf, pressed } from "../controls/keys.ts";
 import type { MarkParameter } from "../settings/address.ts";
 import type { Store } from "../settings/store.ts";
 import type { Viewer } from "../view/viewer.ts";
 import { Compare } from "./compare.ts";
-import { LateEdits } from "./edit/late-edits.ts";
 import { Export, type ExportActions } from "./export.ts";
 import { Information } from "./information/information.ts";
 import { ScaleBar } from "./information/scale-bar.ts";
@@ -23,7 +22,6 @@ import { Patience } from "./patience.ts";
 import { Pick } from "./pick.ts";
 import { pointAt, type Spot } from "./find.ts";
 import { onClick, spotOf, TOLERANCE } from "./pointer.ts";
-import { Select } from "./select.ts";
 import type { Bench, Tool } from "./tool.ts";
 
 /** The bar over the cloud. At most one of its tools is active. The active tool receives the clicks or the drags. */
@@ -36,7 +34,6 @@ export class Tools {
   readonly #through = byId("through", HTMLInputElement);
   readonly #compare: Compare;
   readonly #patience: Patience;
-  readonly #edits: LateEdits;
   readonly #information: Information;
   readonly #scaleBar: ScaleBar;
   readonly #marked: Marked;
@@ -51,44 +48,24 @@ export class Tools {
       marks: this.#marks,
       upward: () => upVector(store.current.up),
       pointAt: (spot) => {
-        const through = bench.through();
+        const through = this.#through.checked;
         return pointAt(viewer, spot, through) ?? (through ? "No point there." : "No visible point there.");
       },
       name: actions.name,
-      isEditing: () => edits.isOwn,
-      choose: (indices) => {
-        select.choose(indices);
-      },
       changed: actions.changed,
-      through: () => this.#through.checked,
       whenFinal: (run, here) => {
         this.#patience.whenFinal(run, here);
       },
     };
-    const select: Select = new Select(bench, this.#canvas, () => this.#active === select);
     const measure = new Measure(bench);
     const label = new Label(bench);
-    const exports = new Export(
-      bench,
-      () => select.indices,
-      actions,
-      () => linkOf(this.#marked).left,
-    );
-    const edits: LateEdits = new LateEdits(() => bench, store, select, actions, byId("select-card"));
-    this.#edits = edits;
-    select.onOpen = () => {
-      edits.open();
-    };
-    select.onChange = () => {
-      exports.open();
-      edits.follow();
-    };
+    const exports = new Export(bench, actions, () => linkOf(this.#marked).left);
     const stations = new LateTool("stations", "clicks", async (card) => {
       const { Stations } = await import("./stations/stations.ts");
       return new Stations(bench, store, card);
     });
-    this.#marked = { measure, label, select, stations, through: this.#through };
-    this.#tools = [new Pick(bench), measure, select, label, stations, exports];
+    this.#marked = { measure, label, stations };
+    this.#tools = [new Pick(bench), measure, label, stations, exports];
     for (const tool of this.#tools) {
       byId(`tool-${tool.name}`).addEventListener("click", () => {
         this.#toggle(tool);
@@ -108,7 +85,7 @@ export class Tools {
     this.#bindKeys(viewer);
   }
 
-  /** Marks, the selection and stations for the address. Those of a streamed cloud end when the camera moves. */
+  /** Marks and stations for the address. Those of a streamed cloud end when the camera moves. */
   get marks(): Record<MarkParameter, string[]> {
     const isStreamed = this.#viewer.cloud !== null && this.#viewer.scene.answer.whole !== undefined;
     return isStreamed ? noMarks() : linkOf(this.#marked).parameters;
@@ -125,21 +102,15 @@ export class Tools {
     const { cloud, answer } = this.#viewer.scene;
     const count = answer.whole ? 0 : cloud.count;
     const isHere = () => this.#viewer.cloud === cloud;
-    // A profile has the points of the final picture.
-    const final = async () => {
-      while (isHere() && !this.#viewer.isFinal) await nextFrame();
-      return isHere();
-    };
-    return (await restore(search, this.#marked, count, final))
+    return (await restore(search, this.#marked, count, isHere))
       ? null
-      : "Some marks, stations or the selection in the address do not suit this cloud. They are left out.";
+      : "Some marks or stations in the address do not suit this cloud. They are left out.";
   }
 
   /** Called before another cloud is shown. */
   clear(): void {
     this.#patience.clear();
     for (const tool of this.#tools) tool.clear?.();
-    this.#edits.clear();
   }
 
   /** Called when a cloud is shown. */

@@ -21,7 +21,7 @@ export class Workshop {
     this.#load = async () => new (await import("./tools.ts")).Tools(viewer, store, actions);
   }
 
-  /** Marks, the selection and stations for the address. `null`: the tools are not there yet. */
+  /** Marks and stations for the address. `null`: the tools are not there yet. */
   get marks(): Record<MarkParameter, string[]> | null {
     return this.#tools && this.#search === null ? this.#tools.marks : null;
   }
@@ -32,7 +32,7 @@ export class Workshop {
     this.#tools?.clear();
   }
 
-  /** Called when other points of the same cloud are shown. Places and selections belong to the points before. */
+  /** Called when other points of the same cloud are shown. Places belong to the points before. */
   exchange(): void {
     this.clear();
     this.#tools?.begin();

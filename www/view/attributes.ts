@@ -3,16 +3,12 @@ import { type Cloud, type Up, upVector } from "../cloud/cloud.ts";
 import { spreadOf } from "../cloud/spread.ts";
 import type { Theme } from "./theme.ts";
 
-/** The share of a selected point's own color that is covered. */
-const CHOSEN_COVERAGE = 0.65;
-
 /** The text before the `main` of a vertex shader: the color of a vertex, and its brightness under the lights. */
 export const TINT_SHADER = /* glsl */ `
   uniform vec3 up, low, high;
   uniform vec2 heights;
   uniform bool lit, colored;
-  uniform vec3 chosenColor;
-  attribute float brightness, chosen;
+  attribute float brightness;
   attribute vec3 color;
 
   vec3 ownTint() {
@@ -22,10 +18,6 @@ export const TINT_SHADER = /* glsl */ `
 
   float light() {
     return lit ? brightness : 1.0;
-  }
-
-  vec3 chosenOr(vec3 tint) {
-    return mix(tint, chosenColor, ${CHOSEN_COVERAGE.toFixed(2)} * chosen);
   }
 `;
 
@@ -39,7 +31,6 @@ export class CloudAttributes {
     low: { value: new Color() },
     high: { value: new Color() },
     lit: { value: false },
-    chosenColor: { value: new Color() },
     colored: { value: false },
   };
   readonly #local: Float32Array;
@@ -49,7 +40,6 @@ export class CloudAttributes {
   readonly #ownColors: Uint8Array | null;
   #color: BufferAttribute | null = null;
   #brightness: BufferAttribute | null = null;
-  #chosen: BufferAttribute | null = null;
 
   constructor({ local, colors, radius }: Cloud, theme: Theme) {
     this.#local = local;
@@ -60,10 +50,9 @@ export class CloudAttributes {
     this.setTheme(theme);
   }
 
-  setTheme({ low, high, chosen }: Theme): void {
+  setTheme({ low, high }: Theme): void {
     this.uniforms.low.value = display(low);
     this.uniforms.high.value = display(high);
-    this.uniforms.chosenColor.value = display(chosen);
   }
 
   /** Gives a geometry the cloud's points as vertices. */
@@ -71,23 +60,9 @@ export class CloudAttributes {
     geometry.setAttribute("position", this.#position);
     if (this.#color) geometry.setAttribute("color", this.#color);
     if (this.#brightness) geometry.setAttribute("brightness", this.#brightness);
-    if (this.#chosen) geometry.setAttribute("chosen", this.#chosen);
     // Otherwise three.js computes it from all points, once for each geometry.
     geometry.boundingSphere = this.#bounds;
     this.#geometries.push(geometry);
-  }
-
-  /** Sets the points that are selected. */
-  setChosen(indices: Uint32Array): void {
-    if (!this.#chosen) {
-      if (indices.length === 0) return;
-      this.#chosen = new BufferAttribute(new Uint8Array(this.#local.length / 3), 1, true).setUsage(DynamicDrawUsage);
-      for (const geometry of this.#geometries) geometry.setAttribute("chosen", this.#chosen);
-    }
-    const marks = this.#chosen.array as Uint8Array;
-    marks.fill(0);
-    for (const index of indices) marks[index] = 255;
-    this.#chosen.needsUpdate = true;
   }
 
   setUp(up: Up): void {

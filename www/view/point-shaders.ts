@@ -28,7 +28,7 @@ export const vertexShader = /* glsl */ `
     size = clamp(width * pixels / gl_Position.w, least, max(least, most));
     gl_PointSize = size;
     // Hidden points have no light of their own.
-    tint = chosenOr(coverage > 0.0 ? mix(ownTint(), cover, coverage) : ownTint() * light());
+    tint = coverage > 0.0 ? mix(ownTint(), cover, coverage) : ownTint() * light();
   }
 `;
 

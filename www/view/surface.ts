@@ -10,7 +10,7 @@ const vertexShader = /* glsl */ `
   void main() {
     vec4 seen = modelViewMatrix * vec4(position, 1.0);
     place = seen.xyz;
-    tint = chosenOr(ownTint());
+    tint = ownTint();
     bright = light();
     gl_Position = projectionMatrix * seen;
   }

@@ -9,7 +9,6 @@ export interface StationActions {
   stop: () => void;
   remove: (number: number) => void;
   clear: () => void;
-  selectUnseen: () => void;
   saveStations: () => void;
   savePoints: (ending: "ply" | "csv") => void;
 }
@@ -35,7 +34,6 @@ export class StationCard {
   readonly #unseen = make("p", { class: "note", id: "stations-unseen" });
   readonly #bar = make("progress", { max: "1", "aria-label": "Finding what the stations see" });
   readonly #work: HTMLElement;
-  readonly #select: HTMLButtonElement;
   readonly #suggest: HTMLButtonElement;
   readonly #results: HTMLElement;
   readonly #clear: HTMLButtonElement;
@@ -50,7 +48,6 @@ export class StationCard {
       file.value = "";
     });
     this.#work = make("div", { class: "work", hidden: true }, this.#bar, button("Stop", actions.stop));
-    this.#select = button("Select these", actions.selectUnseen);
     this.#clear = button("Remove all", actions.clear, { hidden: true });
     this.#suggest = button("Suggest one", actions.suggest, {
       title:
@@ -59,7 +56,6 @@ export class StationCard {
     this.#results = make(
       "div",
       { class: "files", hidden: true },
-      this.#select,
       button("Stations, CSV", actions.saveStations),
       button("Points, PLY", () => {
         actions.savePoints("ply");
@@ -137,7 +133,6 @@ export class StationCard {
     const share = `${((100 * found.unseen) / total).toFixed(1)}\u00a0%`;
     this.#unseen.textContent = `No station sees ${number.format(found.unseen)} of ${number.format(total)} points (${share}).`;
     this.#unseen.dataset["count"] = String(found.unseen);
-    this.#select.hidden = found.unseen === 0;
   }
 
   /** Says what the colors of the points mean. Of many colors, only the first two and the last one. */

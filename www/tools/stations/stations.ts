@@ -5,7 +5,6 @@ import { csvWord } from "../csv.ts";
 import { BATCH, contentOf, save, stemOf } from "../files.ts";
 import { coordinatesAt, indexInFile, measuresOf } from "../figures.ts";
 import type { Spot } from "../find.ts";
-import { indicesWhere } from "../indices.ts";
 import type { Mark } from "../marks.ts";
 import { plyParts } from "../../../src/ts/formats/write/ply.js";
 import type { Bench, Tool } from "../tool.ts";
@@ -56,10 +55,6 @@ export class Stations implements Tool {
         this.#stations = [];
         this.#changed();
       },
-      selectUnseen: () => {
-        const counts = this.#found?.counts;
-        if (counts) bench.choose(indicesWhere(counts.length, (i) => counts[i] === 0));
-      },
       saveStations: () => void this.#saveStations(),
       savePoints: (ending) => void this.#savePoints(ending),
     });
@@ -108,10 +103,9 @@ export class Stations implements Tool {
     return runs;
   }
 
-  /** Stations stay if the next cloud has other points of the same file. */
   clear(): void {
     this.#running?.abort();
-    if (!this.#bench.isEditing()) this.#stations = [];
+    this.#stations = [];
     this.#finder = null;
     this.#show(null);
     this.#invite();
@@ -242,7 +236,7 @@ export class Stations implements Tool {
     const { scene } = this.#bench.viewer;
     const { counts } = this.#found!;
     const { cloud, positions } = scene;
-    const indices = indicesWhere(counts.length, () => true);
+    const indices = Uint32Array.from(counts.keys());
     if (ending === "csv") {
       await this.#save(
         "seen-by-stations.csv",

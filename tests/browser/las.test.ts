@@ -1,0 +1,89 @@
+// The visible points of a LAS file are written as LAS with all that the file said.
+import { spawnSync } from "node:child_process";
+import { existsSync, readFileSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import type { Page } from "playwright-core";
+import { expect, test } from "vitest";
+import { root } from "../root.js";
+import { MIDDLE, openBall, positions, tool, visible } from "./ball.js";
+import { classOf, colorOf, inMillimeters, intensityOf, las } from "./formats.js";
+import { openReady, served, upToDate } from "./support.js";
+
+const [X, Y, Z] = MIDDLE;
+const VIEW = `&up=y&view=${[X, Y, Z + 9].join()}&target=${MIDDLE.join()}`;
+const PYTHON = join(root, "target", "python", "bin", "python");
+const hasLaspy = existsSync(PYTHON) && spawnSync(PYTHON, ["-c", "import laspy"]).status === 0;
+
+async function savedLas(page: Page): Promise<Buffer> {
+  if ((await tool(page, "Export").getAttribute("aria-pressed")) !== "true") await tool(page, "Export").click();
+  const coming = page.waitForEvent("download");
+  await page.locator("#export-las").click();
+  return readFileSync(await (await coming).path());
+}
+
+const total = async (page: Page, count: number) => {
+  await page.locator(`#status[data-total="${count}"]`).waitFor({ state: "attached" });
+  return upToDate(page);
+};
+
+const UTM = 'PROJCS["WGS 84 / UTM zone 32N",GEOGCS["WGS 84",UNIT["degree",0.0174532925199433]],UNIT["metre",1]]';
+
+test.for([
+  { format: 0, minor: 2 },
+  { format: 3, minor: 2, extra: "deviation" },
+  { format: 6, minor: 4 },
+  { format: 8, minor: 4, extra: "deviation", wkt: UTM },
+] as const)(
+  "the visible points of a LAS file of format $format are the same bytes when they are written again",
+  async (options) => {
+    const source = Buffer.from(las(positions, options));
+    served.set("clouds/again.las", source);
+    const page = await openReady(`?src=clouds/again.las${VIEW}`);
+    const seen = await visible(page);
+    const file = await savedLas(page);
+    const rows = (bytes: Buffer) => {
+      const [start, length] = [bytes.readUInt32LE(96), bytes.readUInt16LE(105)];
+      return Array.from({ length: (bytes.length - start) / length }, (_, i) =>
+        bytes.subarray(start + i * length, start + (i + 1) * length).toString("hex"),
+      );
+    };
+    const all = rows(source);
+    expect(rows(file)).toEqual(seen.map((i) => all[i]));
+    expect(file.subarray(131, 179)).toEqual(source.subarray(131, 179));
+    expect(file.includes(UTM)).toBe("wkt" in options);
+
+    // The page reads the file again. Bounds in the header that do not suit the points would be a message.
+    await page.locator("#file").setInputFiles({ name: "again.las", mimeType: "", buffer: file });
+    await total(page, seen.length);
+    expect(await page.locator("#message").isVisible()).toBe(false);
+  },
+);
+
+test.skipIf(!hasLaspy)("laspy reads the same points and columns from the LAS files of the page", async () => {
+  for (const options of [
+    { format: 3, minor: 2, extra: "deviation" },
+    { format: 8, minor: 4, extra: "deviation", wkt: UTM },
+    null,
+  ] as const) {
+    served.set("clouds/again.las", las(positions, options ?? {}));
+    const page = options ? await openReady(`?src=clouds/again.las${VIEW}`) : await openBall();
+    const seen = await visible(page);
+    const path = join(tmpdir(), "hpr-written.las");
+    writeFileSync(path, await savedLas(page));
+    const names = options ? ["intensity", "classification", "return_number", "red", "deviation"] : [];
+    const script = `import laspy,sys,json
+l=laspy.read(sys.argv[1])
+print(json.dumps([l.xyz.tolist()] + [[float(v) for v in l[name]] for name in sys.argv[2:]]))`;
+    const { stdout, stderr } = spawnSync(PYTHON, ["-c", script, path, ...names], { encoding: "utf8" });
+    expect(stderr).toBe("");
+    const [xyz, ...columns] = JSON.parse(stdout) as [number[][], ...number[][]];
+    expect(xyz.length).toBe(seen.length);
+    const places = options ? inMillimeters(positions) : positions;
+    for (const [row, index] of seen.entries()) {
+      for (let axis = 0; axis < 3; axis++) expect(xyz[row]![axis]).toBeCloseTo(places[3 * index + axis]!, 7);
+      const wanted = [intensityOf(index), classOf(index), 1, 257 * colorOf(index)[0], Math.fround(index / 7)];
+      if (options) expect(columns.map((column) => column[row])).toEqual(wanted);
+    }
+  }
+});
