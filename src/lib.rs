@@ -45,12 +45,12 @@ mod view;
 mod wasm;
 
 pub use answers::camera::CameraView;
-pub use answers::coverage::{Placement, Placing};
 pub use answers::horizon::Horizon;
 pub use answers::illumination::Lighting;
 pub use answers::merge::{merge_visible, merge_visible_u64};
 pub use answers::observer::Observer;
 pub use answers::panorama::{Panorama, PanoramaOptions};
+pub use answers::placement::{Choice, Placement, Placing};
 pub use answers::reconstruct::Reconstruction;
 pub use answers::share::{Share, share_visible};
 #[cfg(feature = "std")]

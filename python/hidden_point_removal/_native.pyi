@@ -237,6 +237,8 @@ class PointCloud:
         count: int | None = None,
         share: float | None = None,
         weights: ArrayLike | None = None,
+        *,
+        on_progress: Callable[[float], object] | None = None,
         **options: Unpack[Options],
     ) -> Placement:
         """Chooses viewpoints that together see much: always the one that adds most weight, ties to the lowest number.

@@ -18,7 +18,10 @@ mod placement;
 mod seen_by;
 mod share;
 mod shared;
+mod surfaces;
+mod surveys;
 mod transfer;
+mod views;
 mod visibility;
 
 use pyo3::prelude::*;

@@ -111,6 +111,10 @@ def test_images_may_be_files(tmp_path):
     assert refusal.value.code == "load"
 
 
+def placement(placed):
+    return np.array([placed.chosen, placed.gains]), placed.seen, placed.unseen
+
+
 @pytest.mark.parametrize("threads", [1, 2, 5])
 def test_progress_is_told_and_can_end_a_question(threads):
     photos = [np.full((48, 64), number, np.uint8) for number in range(3)]
@@ -119,6 +123,7 @@ def test_progress_is_told_and_can_end_a_question(threads):
         lambda **more: CLOUD.seen_by(CAMERAS, **options, **more),
         lambda **more: (CLOUD.coverage(CAMERAS, **options, **more),),
         lambda **more: transfer(CLOUD, CAMERAS, photos, **options, **more),
+        lambda **more: placement(CLOUD.place_viewpoints(CAMERAS, **options, **more)),
     ):
         told = []
         for one, other in zip(ask(), ask(on_progress=told.append)):
@@ -135,6 +140,8 @@ def test_a_listener_may_change_the_cloud():
     seen = cloud.seen_by(CAMERAS, threads=1, on_progress=lambda share: cloud.append(ball(50, seed=8)))
     assert len(seen.offsets) == len(cloud) + 1 == 2151
     assert len(cloud.coverage(CAMERAS, threads=1, on_progress=lambda share: cloud.append(ball(50, seed=9)))) == 2250
+    placed = cloud.place_viewpoints(CAMERAS, threads=1, on_progress=lambda share: cloud.append(ball(50, seed=10)))
+    assert placed.seen.max() >= 2250 and not set(placed.seen) & set(placed.unseen)
 
 
 def test_a_map_hides_no_visible_point():

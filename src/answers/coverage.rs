@@ -1,39 +1,14 @@
-//! Many viewpoints of one cloud: how many of them see each point, and which few see most.
+//! Many viewpoints of one cloud: how many of them see each point.
 
 use alloc::vec::Vec;
 
 use crate::answers::threads::Threads;
-use crate::base::allocation::{filled, with_capacity};
-use crate::base::error::{Error, in_range};
+use crate::base::allocation::filled;
+use crate::base::error::Error;
 use crate::cloud::point_cloud::PointCloud;
 use crate::view::options::Options;
 use crate::view::refusals::QuestionKind;
 use crate::view::seat::Seat;
-
-/// What is wanted of chosen viewpoints.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Placing<'a> {
-    /// The largest number of viewpoints to choose, at least 1; any number by default.
-    pub count: Option<usize>,
-    /// The choice ends when so much of the weight is seen that some candidate sees: above 0, at
-    /// most 1; 1 by default.
-    pub share: Option<f64>,
-    /// How much each index counts: finite numbers of at least 0. 1 each by default.
-    pub weights: Option<&'a [f64]>,
-}
-
-/// Chosen viewpoints.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Placement {
-    /// The numbers of the chosen candidates, in the order of their choice.
-    pub chosen: Vec<usize>,
-    /// The weight that each of them adds to those before it.
-    pub gains: Vec<f64>,
-    /// The indices that at least one of them sees, ascending.
-    pub seen: Vec<u32>,
-    /// The indices that no candidate sees, ascending; also those of removed and skipped points.
-    pub unseen: Vec<u32>,
-}
 
 impl PointCloud {
     /// How many of `viewpoints`, or of cameras, see each index? The memory does not grow with their number.
@@ -56,54 +31,6 @@ impl PointCloud {
     ) -> Result<Vec<u32>, Error> {
         self.alone().coverage(viewpoints, options)
     }
-
-    /// Chooses viewpoints, or cameras, among candidates, greedily: always the one that adds most weight, ties to
-    /// the lowest number. The choice ends when nothing more is gained. For a number of viewpoints,
-    /// it sees at least 1 − 1/e of what the best choice of that number sees.
-    ///
-    /// The view of each candidate is computed once, and again when it may be the next one. A
-    /// candidate whose gain was already lower than that of another is not asked again, because
-    /// gains only fall. So the memory does not grow with the number of candidates.
-    ///
-    /// ```
-    /// use hidden_point_removal::{Options, Placing, PointCloud};
-    ///
-    /// let cloud = PointCloud::new(&[[0.0, 0.0, 1.0], [0.0, 0.0, 2.0], [1.0, 0.0, 0.0]])?;
-    /// let candidates = [[0.0, 0.0, 5.0], [0.0, 0.0, 6.0], [0.0, 0.0, -5.0]];
-    /// let placing = Placing::default();
-    /// let placed = cloud.place_viewpoints(&candidates, &Options::default(), &placing)?;
-    /// assert_eq!((placed.chosen, placed.gains), (vec![0, 2], vec![2.0, 1.0]));
-    /// assert_eq!((placed.seen, placed.unseen), (vec![0, 1, 2], vec![]));
-    /// # Ok::<(), hidden_point_removal::Error>(())
-    /// ```
-    ///
-    /// # Errors
-    /// [`Error::OutOfRange`] for the numbers of `placing`; otherwise as [`PointCloud::coverage`].
-    pub fn place_viewpoints<S: Copy + Into<Seat> + Sync>(
-        &self,
-        candidates: &[S],
-        options: &Options,
-        placing: &Placing,
-    ) -> Result<Placement, Error> {
-        self.alone().place_viewpoints(candidates, options, placing)
-    }
-
-    /// The indices that these candidates see, each with its number.
-    fn views_of<S: Copy + Into<Seat> + Sync>(
-        &self,
-        threads: usize,
-        asked: &[usize],
-        candidates: &[S],
-        options: &Options,
-    ) -> Result<Vec<(usize, Vec<u32>)>, Error> {
-        let mut seats: Vec<S> = with_capacity(asked.len())?;
-        seats.extend(asked.iter().map(|&number| candidates[number]));
-        let mut views = with_capacity(asked.len())?;
-        self.each_view(threads, &seats, options, &mut |at, seen| {
-            views.push((asked[at], seen.into_indices()));
-        })?;
-        Ok(views)
-    }
 }
 
 impl Threads<'_> {
@@ -124,126 +51,4 @@ impl Threads<'_> {
         })?;
         Ok(counts)
     }
-
-    /// As [`PointCloud::place_viewpoints`].
-    ///
-    /// # Errors
-    /// As [`PointCloud::place_viewpoints`].
-    pub fn place_viewpoints<S: Copy + Into<Seat> + Sync>(
-        &self,
-        candidates: &[S],
-        options: &Options,
-        placing: &Placing,
-    ) -> Result<Placement, Error> {
-        let count = placing.count.unwrap_or(usize::MAX);
-        in_range("count", count as f64, 1.0, f64::MAX)?;
-        let share = placing.share.unwrap_or(1.0);
-        in_range("share", share, f64::MIN_POSITIVE, 1.0)?;
-        if let Some(weights) = placing.weights {
-            let len = self.len() as f64;
-            in_range("the number of weights", weights.len() as f64, len, len)?;
-            for &weight in weights {
-                in_range("weights", weight, 0.0, f64::MAX)?;
-            }
-        }
-        let weight = |index: u32| {
-            placing
-                .weights
-                .map_or(1.0, |weights| weights[index as usize])
-        };
-        let total = |marks: &[bool]| {
-            let marked = (0u32..).zip(marks).filter(|(_, mark)| **mark);
-            marked.fold(0.0, |sum, (index, _)| sum + weight(index))
-        };
-
-        let mut gains: Vec<f64> = filled(candidates.len(), 0.0)?;
-        let mut seen_by_any: Vec<bool> = filled(self.len(), false)?;
-        options.check(QuestionKind::PlaceViewpoints)?;
-        self.each_view(self.count, candidates, options, &mut |number, seen| {
-            let indices = seen.indices();
-            gains[number] = indices.iter().fold(0.0, |sum, &index| sum + weight(index));
-            for &index in indices {
-                seen_by_any[index as usize] = true;
-            }
-        })?;
-        let reachable = total(&seen_by_any);
-        let mut seen: Vec<bool> = filled(self.len(), false)?;
-        let mut measured: Vec<usize> = filled(candidates.len(), 0)?;
-        let mut placement = Placement::default();
-        // The indices that some candidates see.
-        let mut views: Vec<(usize, Vec<u32>)> = Vec::new();
-        while placement.chosen.len() < count {
-            // With a share of 1, the choice ends when nothing is gained: sums in another order may
-            // differ.
-            if share < 1.0 && total(&seen) >= share * reachable {
-                break;
-            }
-            let Some(best) = highest(&gains) else {
-                break;
-            };
-            if views.iter().all(|(number, _)| *number != best) {
-                let asked = highest_of(&gains, self.count)?;
-                views = self.views_of(self.count, &asked, candidates, options)?;
-            }
-            let Some((_, view)) = views.iter().find(|(number, _)| *number == best) else {
-                break;
-            };
-            // Sums run over ascending indices, so rounding keeps their order, too.
-            if measured[best] < placement.chosen.len() {
-                let new = view.iter().filter(|&&index| !seen[index as usize]);
-                gains[best] = new.fold(0.0, |sum, &index| sum + weight(index));
-                measured[best] = placement.chosen.len();
-                if highest(&gains) != Some(best) {
-                    continue;
-                }
-            }
-            for &index in view {
-                seen[index as usize] = true;
-            }
-            placement.chosen.push(best);
-            placement.gains.push(gains[best]);
-            gains[best] = 0.0;
-        }
-        placement.seen = marked(&seen, true)?;
-        placement.unseen = marked(&seen_by_any, false)?;
-        Ok(placement)
-    }
-}
-
-/// The numbers of the `count` highest gains, as far as they are above 0.
-fn highest_of(gains: &[f64], count: usize) -> Result<Vec<usize>, Error> {
-    let mut others: Vec<f64> = with_capacity(gains.len())?;
-    others.extend_from_slice(gains);
-    let mut numbers: Vec<usize> = with_capacity(count.min(gains.len()))?;
-    while let Some(next) = highest(&others).filter(|_| numbers.len() < count) {
-        numbers.push(next);
-        others[next] = 0.0;
-    }
-    Ok(numbers)
-}
-
-/// The lowest number of the highest gain, if that is above 0.
-fn highest(gains: &[f64]) -> Option<usize> {
-    let higher = |best: usize, number: usize| {
-        if gains[number] > gains[best] {
-            number
-        } else {
-            best
-        }
-    };
-    (0..gains.len())
-        .reduce(higher)
-        .filter(|&best| gains[best] > 0.0)
-}
-
-/// The indices with this mark, ascending.
-fn marked(marks: &[bool], wanted: bool) -> Result<Vec<u32>, Error> {
-    let is_wanted = |mark: &&bool| **mark == wanted;
-    let mut indices: Vec<u32> = with_capacity(marks.iter().filter(is_wanted).count())?;
-    let all = (0..).zip(marks);
-    indices.extend(
-        all.filter(|(_, mark)| is_wanted(mark))
-            .map(|(index, _)| index),
-    );
-    Ok(indices)
 }

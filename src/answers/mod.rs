@@ -14,6 +14,7 @@ pub(crate) mod merge;
 pub(crate) mod observer;
 pub(crate) mod panorama;
 pub(crate) mod part;
+pub(crate) mod placement;
 pub(crate) mod reconstruct;
 pub(crate) mod sample;
 pub(crate) mod sector;

@@ -1,0 +1,201 @@
+//! Questions to a cloud about many viewpoints, and what is seen all around one.
+
+use hidden_point_removal::{Choice, PanoramaOptions, Placing};
+use numpy::{IntoPyArray, PyArray1};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::arrays::{numbers, place};
+use crate::calibration;
+use crate::camera;
+use crate::cloud::PointCloud;
+use crate::failure::{option, refused};
+use crate::options::{self, Asked, How, refuse_draft_and_scores};
+use crate::panorama::Panorama;
+use crate::placement::Placement;
+use crate::seen_by;
+
+#[pymethods]
+impl PointCloud {
+    #[doc = asks!("coverage($self, viewpoints, *, on_progress=None")]
+    /// How many of the viewpoints see each point.
+    ///
+    /// viewpoints: list of 3 numbers each, or array of shape (m, 3). A camera may stand in the place of a viewpoint; it
+    ///     sees only what is in its image.
+    /// on_progress: is called with the share that is done. An exception in it ends the question.
+    /// Options: those of `visible_from`. Not with draft and scores.
+    /// Returns an array of uint32, one number for each index.
+    #[pyo3(signature = (viewpoints, *, on_progress=None, **options), text_signature = None)]
+    fn coverage<'py>(
+        &self,
+        py: Python<'py>,
+        viewpoints: &Bound<'_, PyAny>,
+        on_progress: Option<&Bound<'_, PyAny>>,
+        options: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<Bound<'py, PyArray1<u32>>> {
+        let viewpoints = camera::seats(viewpoints, "viewpoints")?;
+        let asked = options::read(py, options)?;
+        let mut counts = Vec::new();
+        self.in_groups(py, &viewpoints, &asked, on_progress, |cloud, group| {
+            let more = cloud.coverage(group, &asked.options)?;
+            // A listener may have appended points.
+            counts.resize(more.len(), 0);
+            (counts.iter_mut().zip(more)).for_each(|(count, more): (&mut u32, u32)| *count += more);
+            Ok(())
+        })?;
+        Ok(counts.into_pyarray(py))
+    }
+
+    #[doc = asks!("place_viewpoints($self, candidates, count=None, share=None, weights=None, *, on_progress=None")]
+    /// Chooses viewpoints that together see much: always the one that adds most weight, ties to the lowest number.
+    ///
+    /// candidates: list of 3 numbers each, or array of shape (m, 3). Cameras may stand in their places.
+    /// count: int. At most so many are chosen.
+    /// share: float, above 0 and at most 1. No more are chosen than see this share of the weight that some candidate sees.
+    /// weights: n numbers of at least 0, one for each index. Default 1 each.
+    /// on_progress: is called with the share of the candidates that is done. An exception in it ends the question.
+    /// Options: those of `visible_from`. Not with draft and scores.
+    /// Returns a `Placement`.
+    #[pyo3(
+        signature = (candidates, count=None, share=None, weights=None, *, on_progress=None, **options),
+        text_signature = None
+    )]
+    #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
+    fn place_viewpoints(
+        &self,
+        py: Python<'_>,
+        candidates: &Bound<'_, PyAny>,
+        count: Option<&Bound<'_, PyAny>>,
+        share: Option<&Bound<'_, PyAny>>,
+        weights: Option<&Bound<'_, PyAny>>,
+        on_progress: Option<&Bound<'_, PyAny>>,
+        options: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<Placement> {
+        let candidates = camera::seats(candidates, "candidates")?;
+        let asked = options::read(py, options)?;
+        let weights = weights.map(|given| numbers(given, "weights")).transpose()?;
+        let wrong = || option(py, "share must be a number".into());
+        let placing = Placing {
+            count: count
+                .map(|given| options::count(py, "count", given))
+                .transpose()?,
+            share: share
+                .map(|given| options::number(given).ok_or_else(wrong))
+                .transpose()?,
+            weights: weights.as_deref(),
+        };
+        let mut choice = Choice::new(&placing).map_err(|error| refused(py, error))?;
+        self.in_groups(py, &candidates, &asked, on_progress, |cloud, group| {
+            choice.look(cloud, group, &asked.options)
+        })?;
+        let placed = self.ask(py, asked.how, |cloud| {
+            choice.choose(cloud, &candidates, &asked.options)
+        })?;
+        Ok(Placement::new(py, placed))
+    }
+
+    #[doc = asks!("panorama($self, viewpoint, width, height, up=(0, 0, 1), *")]
+    /// The surface of the visible points as an equirectangular image of ranges, and how much sky is left.
+    ///
+    /// viewpoint: 3 numbers.
+    /// width: int, 1 to 16384. Column 0 looks along +x, the column at a quarter of the width along +y.
+    /// height: int, 1 to 16384. Row 0 is up.
+    /// up: 3 numbers, the direction above row 0. Column 0 then looks along the part of +x that is perpendicular to it.
+    /// Options: those of `visible_from`. Not with draft and scores.
+    /// Returns a `Panorama`.
+    #[pyo3(signature = (viewpoint, width, height, up=None, **options), text_signature = None)]
+    fn panorama(
+        &self,
+        py: Python<'_>,
+        viewpoint: &Bound<'_, PyAny>,
+        width: &Bound<'_, PyAny>,
+        height: &Bound<'_, PyAny>,
+        up: Option<&Bound<'_, PyAny>>,
+        options: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<Panorama> {
+        let viewpoint = place(viewpoint, "viewpoint")?;
+        let width = options::count(py, "width", width)?;
+        let size = PanoramaOptions {
+            width,
+            height: options::count(py, "height", height)?,
+            up: up.map_or(Ok([0.0, 0.0, 1.0]), |up| place(up, "direction"))?,
+        };
+        let Asked { options, how } = options::read(py, options)?;
+        let made = self.ask(py, how, |cloud| cloud.panorama(viewpoint, &options, &size))?;
+        Panorama::new(py, made, width)
+    }
+
+    /// The radius that a rule chooses for a viewpoint.
+    ///
+    /// viewpoint: 3 numbers.
+    /// rule: "auto" (default), "search" or "opposite".
+    ///
+    /// Returns (radius, exponent, evaluations): two float, and how many hulls the choice took.
+    #[pyo3(signature = (viewpoint, rule="auto"))]
+    fn auto_radius(
+        &self,
+        py: Python<'_>,
+        viewpoint: &Bound<'_, PyAny>,
+        rule: &str,
+    ) -> PyResult<(f64, f64, u32)> {
+        let viewpoint = place(viewpoint, "viewpoint")?;
+        let word = rule.into_pyobject(py)?.into_any();
+        let rule = options::radius(py, "radius", &word)?;
+        let chosen = self.ask(py, How::default(), |cloud| {
+            cloud.auto_radius(viewpoint, rule)
+        })?;
+        Ok((chosen.radius, chosen.exponent, chosen.evaluations))
+    }
+
+    #[doc = asks!("seen_by($self, cameras, *, on_progress=None")]
+    /// Which cameras see each point, and where.
+    ///
+    /// cameras: list of cameras, as for `visible_from_camera`.
+    /// on_progress: is called with the share that is done. An exception in it ends the question.
+    /// Options: those of `visible_from`. Not with draft and scores.
+    /// Returns a `SeenBy`: `offsets`, `cameras`, `pixels` and `towards`, the rows of a sparse matrix.
+    #[pyo3(signature = (cameras, *, on_progress=None, **options), text_signature = None)]
+    fn seen_by<'py>(
+        &self,
+        py: Python<'py>,
+        cameras: &Bound<'_, PyAny>,
+        on_progress: Option<&Bound<'_, PyAny>>,
+        options: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let cameras = camera::cameras(cameras)?;
+        let asked = options::read(py, options)?;
+        refuse_draft_and_scores(py, &asked.options, "seen_by")?;
+        let views = self.camera_views(py, &cameras, &asked, on_progress)?;
+        seen_by::rows(py, self.__len__(py)?, &views)
+    }
+
+    #[doc = asks!("calibrate($self, stations, *")]
+    /// For scans whose stations are known: the smallest thickness at which each station sees the points that it measured.
+    ///
+    /// stations: list of dicts of viewpoint (3 numbers) and of indices (list or array of int) or mask (n truth values):
+    ///     where a scanner stood, and its points.
+    /// Options: those of `visible_from`; looks is 3 by default. A thickness that is given is only measured.
+    /// Returns a `Calibration`: `thickness`, `recall` (the share of its own points that each station sees) and `options`
+    /// to ask with. Takes about ten views for each station.
+    #[pyo3(signature = (stations, **options), text_signature = None)]
+    fn calibrate<'py>(
+        &self,
+        py: Python<'py>,
+        stations: &Bound<'_, PyAny>,
+        options: Option<&Bound<'py, PyDict>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let stations = calibration::stations(stations, self.__len__(py)?)?;
+        let given = options.map_or_else(|| Ok(PyDict::new(py)), |options| options.copy())?;
+        if given.get_item("looks")?.is_none_or(|looks| looks.is_none()) {
+            given.set_item("looks", 3)?;
+        }
+        let Asked { options, how } = options::read(py, Some(&given))?;
+        let spacing = self.spacing(py)?;
+        let found = self.ask(py, how, |cloud| {
+            calibration::calibrated(&cloud, spacing, &stations, &options)
+        })?;
+        given.set_item("thickness", found.thickness)?;
+        let answers = py.import("hidden_point_removal.answers")?;
+        (answers.getattr("Calibration")?).call1((found.thickness, found.recall, given))
+    }
+}

@@ -1,0 +1,169 @@
+//! Questions to a cloud: what a viewpoint, a direction, or a camera sees.
+
+use numpy::{IntoPyArray, PyArray1};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::arrays::{Points, Positions, place};
+use crate::camera;
+use crate::cloud::PointCloud;
+use crate::options::{self, Asked};
+use crate::visibility::Visibility;
+
+#[pymethods]
+impl PointCloud {
+    #[doc = asks!("visible_from($self, viewpoint, *")]
+    /// The points that can be seen from a viewpoint.
+    ///
+    /// The operator flips all points on a sphere around the viewpoint. Those on the convex hull of the flipped points and
+    /// the viewpoint are visible (Katz, Tal and Basri 2007, section 3). The answer is exact for the flipped points.
+    ///
+    /// viewpoint: 3 numbers, in the cloud's units.
+    /// radius: float, "auto" (default), "search" or "opposite". R of the flipping sphere in the cloud's units, at least the
+    ///     distance of the farthest point; or the rule that chooses it. A larger R shows more points.
+    /// exponent: float, at least 0. R = distance of the farthest point * 10**exponent, the paper's parameter.
+    /// inversion: "spherical" (default), {"power": float} or {"exponential": float or "auto"}.
+    /// looks: 2 or 3. So many hulls, each trusted where it is sure: fewer errors, slower. Not with radius, exponent,
+    ///     inversion and draft.
+    /// scores: bool. With looks: the answer has a score from 0 to 1 for each index.
+    /// thickness: float or "auto" (default). With looks: how far behind the surface before it a point may lie and still be
+    ///     seen, in the cloud's units.
+    /// denoise: int. Before the view, each point moves to the plane of its k nearest points.
+    /// vote: int. A point is visible if more than 0.4 of itself and its k nearest points are.
+    /// draft: bool. An early answer: all visible points, and some hidden ones.
+    /// sample: int. Only an even sample of about so many points takes part.
+    /// within: dict of distance (float), box (two corners) and mask (n truth values). Only these points take part.
+    /// threads: int, from 1 to 256. So many threads compute; they change no answer. Default: all cores from 200,000 points
+    ///     on, else 1.
+    ///
+    /// An option that is None counts as left out. Returns a `Visibility`. Raises `HprError` with the code "viewpoint",
+    /// "radius", "option" or "too-large".
+    #[pyo3(signature = (viewpoint, **options), text_signature = None)]
+    fn visible_from(
+        &self,
+        py: Python<'_>,
+        viewpoint: &Bound<'_, PyAny>,
+        options: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<Visibility> {
+        let viewpoint = place(viewpoint, "viewpoint")?;
+        self.view(py, options, |cloud, options| {
+            cloud.visible_from(viewpoint, options)
+        })
+    }
+
+    #[doc = asks!("visible_from_direction($self, direction, *")]
+    /// The points that can be seen along a direction, from infinitely far away: an orthographic view.
+    ///
+    /// direction: 3 numbers, the way the viewer looks. Their length does not matter.
+    /// Options: those of `visible_from`. Not with "search", "opposite", {"power": float} and a distance in within.
+    /// Returns a `Visibility`.
+    #[pyo3(signature = (direction, **options), text_signature = None)]
+    fn visible_from_direction(
+        &self,
+        py: Python<'_>,
+        direction: &Bound<'_, PyAny>,
+        options: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<Visibility> {
+        let direction = place(direction, "direction")?;
+        self.view(py, options, |cloud, options| {
+            cloud.visible_from_direction(direction, options)
+        })
+    }
+
+    #[doc = asks!("visible_from_any($self, viewpoints, *")]
+    /// The points that at least one viewpoint sees.
+    ///
+    /// viewpoints: list of 3 numbers each, or array of shape (m, 3). A camera may stand in the place of a viewpoint; it
+    ///     sees only what is in its image. Each view chooses its own radius.
+    /// Options: those of `visible_from`. Not with scores.
+    /// Returns a `Visibility` with the largest radius.
+    #[pyo3(signature = (viewpoints, **options), text_signature = None)]
+    fn visible_from_any(
+        &self,
+        py: Python<'_>,
+        viewpoints: &Bound<'_, PyAny>,
+        options: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<Visibility> {
+        let viewpoints = camera::seats(viewpoints, "viewpoints")?;
+        self.view(py, options, |cloud, options| {
+            cloud.visible_from_any(&viewpoints, options)
+        })
+    }
+
+    #[doc = asks!("visible_from_at_least($self, k, viewpoints, *")]
+    /// The points that at least `k` viewpoints see.
+    ///
+    /// k: int, from 1 to the number of viewpoints.
+    /// viewpoints: list of 3 numbers each, or array of shape (m, 3). A camera may stand in the place of a viewpoint; it
+    ///     sees only what is in its image. Each view chooses its own radius.
+    /// Options: those of `visible_from`. Not with scores.
+    /// Returns a `Visibility` with the largest radius.
+    #[pyo3(signature = (k, viewpoints, **options), text_signature = None)]
+    fn visible_from_at_least(
+        &self,
+        py: Python<'_>,
+        k: &Bound<'_, PyAny>,
+        viewpoints: &Bound<'_, PyAny>,
+        options: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<Visibility> {
+        let k = options::count(py, "k", k)?;
+        let viewpoints = camera::seats(viewpoints, "viewpoints")?;
+        self.view(py, options, |cloud, options| {
+            cloud.visible_from_at_least(k, &viewpoints, options)
+        })
+    }
+
+    #[doc = asks!("visible_from_camera($self, camera, *")]
+    /// The points that a camera sees: `visible_from` its place, cut to its image.
+    ///
+    /// camera: dict of
+    ///     camera_to_world or world_to_camera: array of shape (4, 4), rigid;
+    ///     fx, fy, cx, cy, width, height: float, in pixels. u = fx*x/z + cx, with x to the right, y down, z forward, and
+    ///         u = 0 at the left edge of the first pixel;
+    ///     convention: "opencv" (default) or "opengl", where y is up and z backward;
+    ///     model: COLMAP's name of the lens (default "OPENCV"), and distortion: its coefficients as COLMAP lists them;
+    ///     near, far: float, limits of the depth along the optical axis, in the cloud's units.
+    /// Options: those of `visible_from`.
+    /// Returns a `Visibility` with `pixels` and `depths`. A camera that is no such dict raises the code "viewpoint".
+    #[pyo3(signature = (camera, **options), text_signature = None)]
+    fn visible_from_camera(
+        &self,
+        py: Python<'_>,
+        camera: &Bound<'_, PyAny>,
+        options: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<Visibility> {
+        let camera = camera::read(camera, "camera")?;
+        let Asked { options, how } = options::read(py, options)?;
+        let view = self.ask(py, how, |cloud| {
+            cloud.visible_from_camera(&camera, &options)
+        })?;
+        Visibility::of_camera(py, view)
+    }
+
+    #[doc = asks!("sees($self, viewpoint, positions, *")]
+    /// Which places could be seen that are not in the cloud: labels, sensors, targets.
+    ///
+    /// viewpoint: 3 numbers.
+    /// positions: array of shape (m, 3). Each place is asked alone, with the radius of the view without it. One that is
+    ///     farther than the radius is not visible.
+    /// Options: those of `visible_from`. Not with draft and scores.
+    /// Returns an array of bool, one for each place.
+    #[pyo3(signature = (viewpoint, positions, **options), text_signature = None)]
+    fn sees<'py>(
+        &self,
+        py: Python<'py>,
+        viewpoint: &Bound<'_, PyAny>,
+        positions: &Bound<'_, PyAny>,
+        options: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<Bound<'py, PyArray1<bool>>> {
+        let viewpoint = place(viewpoint, "viewpoint")?;
+        let Asked { options, how } = options::read(py, options)?;
+        let positions = Positions::read(positions, "positions")?;
+        let points = positions.points();
+        let seen = self.ask(py, how, |cloud| match points {
+            Points::Single(points) => cloud.sees(viewpoint, points, &options),
+            Points::Double(points) => cloud.sees(viewpoint, points, &options),
+        })?;
+        Ok(seen.into_pyarray(py))
+    }
+}
