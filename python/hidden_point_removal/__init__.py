@@ -27,10 +27,12 @@ from ._native import (
     share_visible,
     transfer,
 )
-from .answers import Calibration, SeenBy
+from .answers import Calibration, SeenBy, colmap_vis
+from .cameras import CameraOfImage, read_cameras
 
 __all__ = [
     "Calibration",
+    "CameraOfImage",
     "Horizon",
     "HprError",
     "Panorama",
@@ -40,9 +42,11 @@ __all__ = [
     "Share",
     "Visibility",
     "VisibilityMap",
+    "colmap_vis",
     "hidden_point_removal",
     "merge_visible",
     "orient_normals",
+    "read_cameras",
     "share_visible",
     "transfer",
 ]

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ._native import Visibility
+from ._native import HprError, Visibility
 
 
 class Calibration(NamedTuple):
@@ -37,6 +37,21 @@ class SeenBy(NamedTuple):
     """Where the camera shows the point, x and y: shape (entries, 2)."""
     towards: NDArray[np.float32]
     """The direction of length 1 from the point to the camera: shape (entries, 3)."""
+
+
+def colmap_vis(seen_by):
+    """What COLMAP's `fused.ply.vis` says: which cameras see each point. `seen_by` is the answer of `PointCloud.seen_by`.
+
+    Returns bytes: little-endian, the number of points in 64 bits, then for each point how many cameras see it, and their
+    numbers from 0, in 32 bits each. Raises `HprError` with the code "option".
+    """
+    if not isinstance(seen_by, SeenBy) or list(seen_by.offsets[:1]) != [0] or seen_by.offsets[-1] != len(seen_by.cameras):
+        error = HprError("colmap_vis needs what seen_by of a cloud answers")
+        error.code = "option"
+        raise error
+    offsets = seen_by.offsets.astype(np.int64)
+    rows = np.insert(seen_by.cameras, offsets[:-1], np.diff(offsets))
+    return np.array([len(offsets) - 1], "<u8").tobytes() + rows.astype("<u4").tobytes()
 
 
 def restored(*state):

@@ -1,4 +1,4 @@
-"""hidden-point-removal tiles FOLDER --from cameras.csv -o OUTPUT: visibility for clouds in tiles."""
+"""hidden-point-removal-tiles FOLDER --from cameras.csv -o OUTPUT: which points of all tiles in a folder are visible?"""
 
 from __future__ import annotations
 
@@ -13,9 +13,7 @@ from . import HprError
 
 
 def main(arguments=None):
-    parser = argparse.ArgumentParser(prog="hidden-point-removal", description=__doc__)
-    commands = parser.add_subparsers(required=True, metavar="COMMAND")
-    tiles = commands.add_parser("tiles", help="which points of all tiles in a folder are visible?")
+    tiles = argparse.ArgumentParser(prog="hidden-point-removal-tiles", description=__doc__)
     tiles.add_argument("folder", type=Path, help="a folder of .laz, .las, .parquet or .npy files")
     tiles.add_argument("--from", dest="viewpoints", type=Path, required=True,
                        help="a CSV file with the columns x, y, z, one viewpoint a line")
@@ -27,11 +25,11 @@ def main(arguments=None):
     tiles.add_argument("--scheduler", help="the address of a Dask scheduler")
     tiles.add_argument("--laz", action="store_true", help="also copy each LAS, LAZ and COPC tile with a dimension `visible`; copies of COPC are "
                        "COPC where PDAL is installed, and LAZ elsewhere")
-    chosen = parser.parse_args(arguments)
+    chosen = tiles.parse_args(arguments)
     try:
         run(chosen)
     except (HprError, OSError, ImportError, ValueError) as error:
-        sys.exit(f"hidden-point-removal: {printable(str(error))}")
+        sys.exit(f"hidden-point-removal-tiles: {printable(str(error))}")
     except KeyboardInterrupt:
         sys.exit(130)
 

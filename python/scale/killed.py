@@ -39,7 +39,7 @@ class Killer(threading.Thread):
 
 def command(folder, cameras, output, *options):
     """The command of the package, as a process."""
-    words = ["-m", "hidden_point_removal.command", "tiles", str(folder), "--from", str(cameras), "-o", str(output)]
+    words = ["-m", "hidden_point_removal.command", str(folder), "--from", str(cameras), "-o", str(output)]
     return subprocess.Popen([sys.executable, *words, *options], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
 
 

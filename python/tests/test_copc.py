@@ -108,7 +108,7 @@ def test_a_broken_octree_is_refused(octree):
 def run(folder, path=os.defpath, *words):
     cameras = folder / "cameras.csv"
     cameras.write_text("\n".join(",".join(map(str, viewpoint)) for viewpoint in VIEWPOINTS))
-    command = ["tiles", str(folder), "--from", str(cameras), "-o", str(folder / "seen"), "--laz", *words]
+    command = [str(folder), "--from", str(cameras), "-o", str(folder / "seen"), "--laz", *words]
     return subprocess.run(
         [sys.executable, "-m", "hidden_point_removal.command", *command],
         capture_output=True,

@@ -163,7 +163,7 @@ def test_files_and_their_cache(tmp_path):
     las.write(tmp_path / "c.laz")
     cameras = tmp_path / "cameras.csv"
     cameras.write_text("name,x,y,z\nstreet,100,100,1.7\nabove,60,100,300\n")
-    command = [sys.executable, "-m", "hidden_point_removal.command", "tiles", str(tmp_path), "--from", str(cameras)]
+    command = [sys.executable, "-m", "hidden_point_removal.command", str(tmp_path), "--from", str(cameras)]
     for output in ("first", "second"):
         subprocess.run([*command, "-o", str(tmp_path / output), "--laz"], check=True, capture_output=True)
     kept = os.listdir(tmp_path / ".hpr-manifest")
@@ -185,7 +185,7 @@ def test_files_and_their_cache(tmp_path):
 
 def test_a_bad_command_says_why(tmp_path):
     run = lambda *words: subprocess.run(  # noqa: E731
-        [sys.executable, "-m", "hidden_point_removal.command", "tiles", *words], capture_output=True, text=True
+        [sys.executable, "-m", "hidden_point_removal.command", *words], capture_output=True, text=True
     )
     missing = run(str(tmp_path), "--from", str(tmp_path / "none.csv"), "-o", str(tmp_path / "out"))
     assert missing.returncode != 0 and "no tiles" in missing.stderr
