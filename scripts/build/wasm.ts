@@ -6,6 +6,7 @@ import { inRoot } from "../lib/paths.js";
 import { mustRun, say } from "../lib/run.js";
 import { unlessUnchanged } from "../lib/stamp.js";
 import { WASM_TARGET } from "../setup/rust.js";
+import { makeGlue } from "../setup/tools.js";
 import { easeGlue, numberImports } from "./glue.js";
 import { optimize } from "./optimize.js";
 
@@ -45,27 +46,13 @@ export async function buildWasm(): Promise<void> {
 }
 
 async function buildModule(folder: string, options: string[]): Promise<void> {
-  // bundler: this glue lets the package start the wasm itself, and start another copy
-  // after a trap. No other glue does. hpr.js would start the wasm, so it is left out.
-  // The types of hpr.js also fit hpr_bg.js.
-  // no-install: wasm-pack would download tools. The project's tools are on the PATH.
-  const args = [
-    "--log-level",
-    "error",
-    "build",
-    "src/cdylib",
-    "--target",
-    "bundler",
-    "--release",
-    "--mode",
-    "no-install",
-    "--no-pack",
-  ];
-  const out = inRoot("target/wasm-pack", folder);
-  args.push("--out-dir", out, "--out-name", "hpr", "--", "--locked", ...options);
-  await mustRun("wasm-pack", args, FAILED, { env: { ...LEVEL, RUSTFLAGS: await wasmFlags() } });
+  const args = ["build", "--locked", "--release", "--package", "hpr", "--target", WASM_TARGET, ...options];
+  await mustRun("cargo", args, FAILED, { env: { ...LEVEL, RUSTFLAGS: await wasmFlags() } });
+  const out = inRoot("target/glue", folder);
+  await makeGlue(inRoot("target", WASM_TARGET, "release/hpr.wasm"), out, FAILED);
   await optimize(join(out, "hpr_bg.wasm"), FAILED);
   mkdirSync(inRoot("src/ts", folder), { recursive: true });
+  // hpr.js would start the wasm, so it is left out. Its types also fit hpr_bg.js.
   for (const file of GLUE) {
     const built = file === "hpr_bg.d.ts" ? "hpr.d.ts" : file;
     copyFileSync(join(out, built), inRoot("src/ts", folder, file));

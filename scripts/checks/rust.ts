@@ -1,21 +1,16 @@
 import { run } from "../lib/run.js";
 import { BARE_TARGET, WASM_TARGET } from "../setup/rust.js";
-import { SETUP, TOOLS } from "./build.js";
+import { SETUP } from "./build.js";
 import type { Check, Outcome } from "./check.js";
 import { checkCommand, counted, sum } from "./check.js";
 import { roomsCheck } from "./rooms.js";
 
 const DENY_WARNINGS = ["--", "-D", "warnings"];
 const NO_STD = "--no-default-features";
+const ON_WASM = ["--target", WASM_TARGET];
 
 /** The builds of tests/consumers/crate. The bare target has no std. */
-const KINDS_OF_USERS = [
-  [],
-  [NO_STD],
-  ["--target", WASM_TARGET],
-  ["--target", WASM_TARGET, NO_STD],
-  ["--target", BARE_TARGET, NO_STD],
-];
+const KINDS_OF_USERS = [[], [NO_STD], ON_WASM, [...ON_WASM, NO_STD], ["--target", BARE_TARGET, NO_STD]];
 
 export const rustChecks: Check[] = [
   {
@@ -24,20 +19,21 @@ export const rustChecks: Check[] = [
     needs: [SETUP],
     locks: "fuzz",
     // The examples are left out: cargo would link each of them by itself, and clippy compiles them anyway.
-    run: async () => sum([await cargoTest("fuzz", ["--lib", "--tests"]), await cargoTest("fuzz", ["--doc"])]),
+    run: async () => sum([await cargoTest("--lib", "--tests"), await cargoTest("--doc")]),
   },
   roomsCheck,
   {
-    title: "Rust: tests in WebAssembly, under Node",
+    title: "Rust: the same bits in WebAssembly, under Node",
     part: "core",
-    needs: [TOOLS],
+    needs: [SETUP],
     locks: "wasm",
     // One corpus of every kind of question. Its digest is the native one, so what `core` proves natively holds here.
     run: () =>
-      cargoTest("quick", ["--test", "same_bits", "--target", WASM_TARGET], {
-        CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUNNER: "wasm-bindgen-test-runner",
-        WASM_BINDGEN_TEST_TIMEOUT: "300",
-      }),
+      checkCommand(
+        "cargo",
+        ["run", "--locked", "--profile", "quick", "--package", "hpr-tests", "--bin", "bits_corpus", ...ON_WASM],
+        { CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUNNER: "node tests/bits/run.mjs" },
+      ),
   },
   {
     title: "Rust: a crate that depends on this one",
@@ -63,27 +59,13 @@ export const rustChecks: Check[] = [
     part: "lint",
     needs: [SETUP],
     locks: "debug",
-    run: () =>
-      checkCommand("cargo", ["clippy", "--locked", "--workspace", "--all-targets", "--all-features", ...DENY_WARNINGS]),
-  },
-  {
-    title: "Rust: lints, without features",
-    part: "lint",
-    needs: [SETUP],
-    locks: "debug",
-    run: () => checkCommand("cargo", ["clippy", "--locked", "--lib", NO_STD, ...DENY_WARNINGS]),
-  },
-  {
-    title: "Rust: lints, WebAssembly",
-    part: "lint",
-    needs: [SETUP],
-    locks: "debug",
     run: async () => {
-      const clippy = (...what: string[]) =>
-        checkCommand("cargo", ["clippy", "--locked", "--lib", ...what, "--target", WASM_TARGET, ...DENY_WARNINGS]);
+      const clippy = (...what: string[]) => checkCommand("cargo", ["clippy", "--locked", ...what, ...DENY_WARNINGS]);
       return sum([
-        await clippy("--test", "same_bits", "--features", "wasm"),
-        await clippy(NO_STD, "--features", "lite"),
+        await clippy("--workspace", "--all-targets", "--all-features"),
+        await clippy("--lib", NO_STD),
+        // The small module. What only WebAssembly has is the choice of one thread (base/threads).
+        await clippy("--lib", NO_STD, "--features", "lite", ...ON_WASM),
       ]);
     },
   },
@@ -105,14 +87,10 @@ export const rustChecks: Check[] = [
   },
 ];
 
-/** Runs tests in a profile of Cargo.toml and adds up the `test result:` lines of every test program. */
-async function cargoTest(
-  profile: "quick" | "fuzz",
-  what: string[],
-  env: Record<string, string> = {},
-): Promise<Outcome> {
-  const args = ["test", "--locked", "--profile", profile, "--no-fail-fast", ...what];
-  const { ok, output } = await run("cargo", args, { show: "results", env });
+/** Runs tests and adds up the `test result:` lines of every test program. */
+async function cargoTest(...what: string[]): Promise<Outcome> {
+  const args = ["test", "--locked", "--profile", "fuzz", "--no-fail-fast", ...what];
+  const { ok, output } = await run("cargo", args, { show: "results" });
   const lines = [...output.matchAll(/test result: .*?(\d+) passed; (\d+) failed/g)];
   const counts = sum(lines.map(([, passed, failed]) => ({ passed: Number(passed), failed: Number(failed) })));
   const failures = [...output.matchAll(/^test (.+) \.\.\. (?:FAILED|FAIL)$/gm)].map(([, test]) => test!);

@@ -5,23 +5,18 @@ import { delimiter, join } from "node:path";
 /** The root of the repository. This file runs as target/scripts/lib/paths.js. */
 export const root = join(import.meta.dirname, "..", "..", "..");
 
-/** Where wasm-pack and the wasm-bindgen commands are installed. */
-export const toolsRoot = join(root, "target", "tools");
-const toolsBin = join(toolsRoot, "bin");
-
 /** A path inside the repository. */
 export function inRoot(...parts: string[]): string {
   return join(root, ...parts);
 }
 
 /**
- * The environment of every command. The project's tools come first on the PATH, so that
- * another version of wasm-bindgen does no harm. rustup's directory comes last, for shells
- * that were opened before rustup was installed.
+ * The environment of every command. rustup's directory comes last on the PATH, for shells that were opened before
+ * rustup was installed.
  */
 export function environment(extra: Record<string, string> = {}): NodeJS.ProcessEnv {
   const cargoBin = join(process.env["CARGO_HOME"] ?? join(homedir(), ".cargo"), "bin");
-  const path = [toolsBin, inRoot("node_modules", ".bin"), process.env["PATH"] ?? "", cargoBin];
+  const path = [inRoot("node_modules", ".bin"), process.env["PATH"] ?? "", cargoBin];
   return { ...process.env, ...extra, PATH: path.join(delimiter) };
 }
 

@@ -1,8 +1,5 @@
 //! Looks at what a simulated scanner measures (`common/scanner`). The truth is that of the surface.
 
-#[cfg(target_arch = "wasm32")]
-use wasm_bindgen_test::wasm_bindgen_test as test;
-
 use hidden_point_removal::{Inversion, Options, PointCloud};
 
 use crate::common::rng::Rng;

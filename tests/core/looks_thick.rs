@@ -1,8 +1,5 @@
 //! Looks at measured surfaces: noise, layers of registered scans, spacing that grows with range.
 
-#[cfg(target_arch = "wasm32")]
-use wasm_bindgen_test::wasm_bindgen_test as test;
-
 use hidden_point_removal::{Error, Inversion, Options, PointCloud, Radius, Visibility};
 
 use crate::common::rng::Rng;
