@@ -39,6 +39,24 @@ fn room(count: usize, has_roof: bool) -> Vec<[f64; 3]> {
     points
 }
 
+/// Points on the walls and the floor of the box, with its edges: so many steps along the longest.
+fn lattice(steps: usize) -> Vec<[f64; 3]> {
+    let count = HALF.map(|half| (half * steps as f64 / HALF[0]).round() as usize);
+    let mut points = Vec::new();
+    for (i, j, k) in (0..=count[0])
+        .flat_map(|i| (0..=count[1]).flat_map(move |j| (0..=count[2]).map(move |k| (i, j, k))))
+    {
+        if i % count[0] == 0 || j % count[1] == 0 || k == 0 {
+            let at = [i, j, k];
+            points.push(
+                [0, 1, 2]
+                    .map(|axis| HALF[axis] * (2.0 * at[axis] as f64 / count[axis] as f64 - 1.0)),
+            );
+        }
+    }
+    points
+}
+
 fn dome(count: usize, radius: f64, side: f64) -> Vec<[f64; 3]> {
     let mut rng = Rng::new(8);
     let point = |_| {
@@ -146,6 +164,10 @@ fn an_open_box_shows_the_sky() {
         close(covered(&panorama), panorama.solid_angle, 0.005);
         assert_eq!(panorama.indices[0], Panorama::SKY);
         assert_eq!(panorama.ranges[0], f32::INFINITY);
+        // A coarse lattice closes little of its corners: 1.2 % too much of the sphere was surface.
+        let panorama = seen(&lattice(20), INSIDE, &options);
+        close(panorama.sky_view_factor, factor, 0.01);
+        close(panorama.solid_angle, solid_angle, 0.005);
     }
 }
 

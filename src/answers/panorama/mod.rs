@@ -60,8 +60,8 @@ impl Panorama {
 impl PointCloud {
     /// What stands in each direction around `viewpoint`: the surface of the visible points of
     /// [`PointCloud::visible_from`] with the same options. The sky is where no visible surface stands: a
-    /// triangle between visible points is surface if its edges are at most about six times as long as those
-    /// between neighbors, in space or by angle. The lowest index stands for equal points.
+    /// triangle between visible points is surface if its edges, in local spacings, are at most 2.5 times as long as those
+    /// of nine in ten triangles that face the viewer, in space or by angle. The lowest index stands for equal points.
     ///
     /// ```
     /// use hidden_point_removal::{Options, Panorama, PanoramaOptions, PointCloud};

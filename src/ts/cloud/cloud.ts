@@ -133,8 +133,8 @@ export class PointCloud {
    * {@link PointCloud.visibleFrom} shows with the same options. The image is equirectangular: the middle of
    * pixel (row, column) looks at the elevation 90° − 180°·(row + ½)/height and at the azimuth
    * 360°·column/width, from +x to up × x (for the usual up: to +y). So it is mirrored, as a map of the sky.
-   * A triangle between visible points is surface if its edges are at most about six times as long as
-   * those between neighbors, in space or by angle.
+   * A triangle between visible points is surface if its edges, in local spacings, are at most 2.5 times as long as
+   * those of nine in ten triangles that face the viewer, in space or by angle.
    *
    * @param viewpoint x, y, z in the cloud's units. Needs a cloud of dimension 3.
    * @returns arrays that are the caller's own; `skyViewFactor` and `solidAngle` do not depend on the
