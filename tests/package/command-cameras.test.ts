@@ -126,10 +126,23 @@ describe("--images", () => {
   });
 
   it("writes tables, takes labels from gray images, and merges as it is told", async () => {
-    done("--cameras", "cameras.json", "--images", "images", "--merge", "median", "-o", "colors.npy");
+    done(
+      "--cameras",
+      "cameras.json",
+      "--images",
+      "images",
+      "--merge",
+      "median",
+      "--weights",
+      "angle",
+      "-o",
+      "colors.npy",
+    );
     const { header, data } = numpy(read("colors.npy"));
     expect(header).toContain("'<f4', 'fortran_order': False, 'shape': (2000, 3)");
-    expect(data.equals(Buffer.from(transfer(cloud, plain, images, { merge: "median" }).values.buffer))).toBe(true);
+    expect(
+      data.equals(Buffer.from(transfer(cloud, plain, images, { merge: "median", weights: "angle" }).values.buffer)),
+    ).toBe(true);
     mkdirSync(place("labels/left"), { recursive: true });
     const masks = images.map(({ data }) => ({
       data: Uint16Array.from(data.subarray(0, width * height), (x) => 300 * (x >> 6)),
@@ -147,7 +160,13 @@ describe("--images", () => {
   });
 
   it.each<[string[], number, RegExp]>([
-    [["--camera", "c.json", "--images", "images", "-o", "never.ply"], 2, /--images needs --cameras FILE/],
+    [["--viewpoints", "p.csv", "--images", "images", "-o", "never.ply"], 2, /--images needs --cameras FILE/],
+    [["--cameras", "cameras.json", "--weights", "angle", "-o", "never.xyz"], 2, /--weights needs --images DIR/],
+    [
+      ["--cameras", "cameras.json", "--format", "pixels", "-o", "never.csv"],
+      2,
+      /needs one camera, .* cameras.json has 3/,
+    ],
     [["--cameras", "cameras.json", "--merge", "mean", "-o", "never.xyz"], 2, /--merge needs --images DIR/],
     [["--cameras", "cameras.json", "--images", "images", "-o", "never.las"], 2, /must end with \.ply, .* for colors/],
     [

@@ -95,7 +95,7 @@ describe("the visible points of a LAS file are a LAS file", () => {
     expect(first).toMatch(/^note: the viewpoint far is .* \(of 3 viewpoints, 2 are as far\)$/);
     const cameraToWorld = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 4, 5, 6, 1];
     write("far.json", JSON.stringify({ cameraToWorld, fx: 9, fy: 9, cx: 9, cy: 9, width: 20, height: 20 }));
-    expect(said("--camera", "far.json")[0]).toMatch(/^note: the camera is 5,400,000 units/);
+    expect(said("--cameras", "far.json")[0]).toMatch(/^note: the camera 1 is 5,400,000 units/);
     expect(said("--from", VIEWPOINT.join(","))[0]).toMatch(/^\d+ of 600 points/);
   });
 

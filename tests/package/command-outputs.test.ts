@@ -60,7 +60,7 @@ describe("an output that is an input", () => {
     const cameraToWorld = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, -5, 1];
     const camera = { cameraToWorld, fx: 9, fy: 9, cx: 9, cy: 9, width: 20, height: 20 };
     write("camera.csv", JSON.stringify(camera));
-    refused("in.xyz", "--camera", "camera.csv", "-o", "camera.csv");
+    refused("in.xyz", "--cameras", "camera.csv", "-o", "camera.csv");
     expect([lines("places.csv"), lines("each.csv").length]).toEqual([["0,0,5"], 2]);
     expect(run("in.xyz", "--viewpoints", "places.csv", "-o", "places.csv", "--overwrite").status).toBe(0);
     expect(lines("places.csv")).toEqual(ONE);
@@ -128,7 +128,7 @@ describe("words of files and arguments", () => {
       ["in.xyz", "--viewpoints", "odd.csv", "-o", "out.idx"],
       [`odd${EVIL}.xyz`, ...FROM, "-o", "out.idx"],
       [`missing${EVIL}.xyz`, ...FROM, "-o", "out.idx"],
-      ["in.xyz", "--camera", "odd.json", "-o", "out.csv"],
+      ["in.xyz", "--cameras", "odd.json", "-o", "out.xyz"],
       ["odd.pts", ...FROM, "-o", "out.idx"],
       ["odd.ply", ...FROM, "-o", "out.idx"],
       ["in.xyz", "--from", EVIL, "-o", "out.idx"],

@@ -100,7 +100,7 @@ describe("masks", () => {
   });
 });
 
-describe("--camera", () => {
+describe("--cameras with one camera", () => {
   const camera = cameraFromPose([0, 0, 4], [1, 0, 0, 0], {
     ...intrinsicsFromFieldOfView(30, 320, 240),
     distortion: [0.1, -0.01, 0.001, 0.002, 0],
@@ -110,7 +110,7 @@ describe("--camera", () => {
 
   it("writes index, pixel and depth of each visible point in the image", () => {
     expect(view.count).toBeGreaterThan(50);
-    done("in.xyz", "--camera", "camera.json", "-o", "seen.csv");
+    done("in.xyz", "--cameras", "camera.json", "--format", "pixels", "-o", "seen.csv");
     const [names, ...rows] = lines("seen.csv");
     expect(names).toBe("index,u,v,depth");
     const found = rows.map((row) => row.split(",").map(Number));
@@ -118,7 +118,7 @@ describe("--camera", () => {
     found.forEach(([, u, v, depth], i) => {
       expect([u!, v!, depth!].map(Math.fround)).toEqual([view.pixels[2 * i], view.pixels[2 * i + 1], view.depths[i]]);
     });
-    done("in.xyz", "--camera", "camera.json", "-o", "seen-camera.npy", "--looks", "2");
+    done("in.xyz", "--cameras", "camera.json", "--format", "pixels", "-o", "seen-camera.npy", "--looks", "2");
     const looked = cloud.visibleFromCamera(camera, { looks: 2 });
     const { header, data } = numpy(read("seen-camera.npy"));
     expect(header).toContain(`'<f8', 'fortran_order': False, 'shape': (${looked.count}, 4)`);
@@ -126,21 +126,21 @@ describe("--camera", () => {
   });
 
   it("writes the points themselves, or their indices, if that is wanted", () => {
-    done("in.xyz", "--camera", "camera.json", "-o", "seen.xyz");
+    done("in.xyz", "--cameras", "camera.json", "-o", "seen.xyz");
     const all = lines("in.xyz");
     expect(lines("seen.xyz")).toEqual([...view.indices].map((i) => all[i]));
-    done("in.xyz", "--camera", "camera.json", "-o", "seen.idx");
+    done("in.xyz", "--cameras", "camera.json", "-o", "seen.idx");
     expect(numbers("seen.idx")).toEqual([...view.indices]);
   });
 
   it.each([
-    ["prose.json", "a camera", /is not JSON/],
+    ["prose.json", "a camera", /none of the files of cameras/],
     ["bent.json", JSON.stringify({ ...camera, cameraToWorld: new Array(16).fill(1) }), /pose/],
     ["odd.json", JSON.stringify({ ...camera, zoom: 2 }), /unknown option "zoom"/],
     ["sizeless.json", JSON.stringify({ ...camera, width: 0 }), /width/],
   ])("%s is refused", (name, content, says) => {
     write(name, content);
-    const { stderr, status } = run("in.xyz", "--camera", name, "-o", "seen.csv");
+    const { stderr, status } = run("in.xyz", "--cameras", name, "--format", "pixels", "-o", "seen.csv");
     expect([status, stderr]).toEqual([1, expect.stringMatching(says)]);
   });
 });
@@ -211,8 +211,8 @@ describe("--progress", () => {
 describe("combinations without a meaning", () => {
   const LOOKS = ["--looks", "3"];
   it.each<[string[], RegExp]>([
-    [["in.xyz"], /--from X,Y,Z is needed: the viewpoint; or --camera, --viewpoints or --cameras FILE/],
-    [[...FROM, "--camera", "c.json"], /--from and --camera exclude each other/],
+    [["in.xyz"], /--from X,Y,Z is needed: the viewpoint; or --viewpoints or --cameras FILE/],
+    [[...FROM, "--cameras", "c.json"], /--from and --cameras exclude each other/],
     [[...FROM, "--viewpoints", "places.csv"], /--from and --viewpoints exclude each other/],
     [[...FROM, "--radius", "9", "--exponent", "2"], /radius and exponent exclude each other/],
     [[...FROM, "--radius", "9", "--exponent", "auto"], /radius and exponent exclude each other/],
@@ -226,7 +226,6 @@ describe("combinations without a meaning", () => {
     [[...FROM, "--exponent", "2", "--format", "scores", "-o", "never.txt"], /--format scores needs --looks 2 or 3/],
     [[...FROM, ...LOOKS, "--score-threshold", "0.5", "--format", "scores", "-o", "never.txt"], /writes all scores/],
     [["in.xyz", "--viewpoints", "places.csv", ...LOOKS, "--score-threshold", "0.5"], /needs one viewpoint/],
-    [["in.xyz", "--camera", "c.json", ...LOOKS, "--score-threshold", "0.5"], /needs one viewpoint/],
     [[...FROM, "--coverage", "-o", "never.txt"], /--coverage needs --viewpoints FILE/],
     [["in.xyz", "--viewpoints", "p.csv", "--coverage", "--format", "mask", "-o", "never.txt"], /--format mask/],
     [
@@ -235,7 +234,7 @@ describe("combinations without a meaning", () => {
     ],
     [["in.xyz", "--viewpoints", "p.csv", "--coverage", "-o", "never.las"], /must end with .* for counts/],
     [[...FROM, "--format", "counts", "-o", "never.txt"], /--format counts needs --coverage/],
-    [[...FROM, "--format", "pixels", "-o", "never.csv"], /--format pixels needs --camera FILE/],
+    [[...FROM, "--format", "pixels", "-o", "never.csv"], /--format pixels needs --cameras FILE/],
     [[...FROM, "-o", "{name}.xyz"], /\{name\} in the name of the output needs --viewpoints/],
     [[...FROM, "--format", "points", "-o", "never.idx"], /must end with \.xyz, \.txt, \.csv, \.pts/],
     [[...FROM, "--format", "faces"], /--format needs one of points, indices, mask/],

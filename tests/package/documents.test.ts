@@ -24,7 +24,7 @@ const DOCUMENTS = [
 ].filter((name) => existsSync(join(root, name)));
 const scratch = scratchFor("documents");
 
-describe.each(["README.md", "docs/API.md", "docs/BUNDLERS.md"])(
+describe.each(["README.md", "docs/API.md", "docs/BUNDLERS.md", "docs/CAMERAS.md"])(
   "JavaScript snippets of %s print what they say",
   (document) => {
     test.each(blocks(document, "js").map((code, i) => [i, code] as const))("snippet %i", (i, code) => {
@@ -45,12 +45,21 @@ test.each([
   ["README.md", 1300],
   ["ARCHITECTURE.md", 1000],
   ["docs/API.md", 2400],
+  ["docs/CAMERAS.md", 800],
+  ["docs/COMMAND.md", 650],
   ["docs/MEASURED.md", 1000],
   ["docs/STREAM.md", 600],
   ["docs/VISIBLE.md", 700],
 ])("%s has at most %i words", (document, most) => {
   const words = readFileSync(join(root, document), "utf8").trim().split(/\s+/);
   expect(words.length).toBeLessThanOrEqual(most);
+});
+
+test("the documents have at most 14,000 words", () => {
+  const docs = DOCUMENTS.filter((name) => name.startsWith("docs/")).map((name) =>
+    readFileSync(join(root, name), "utf8"),
+  );
+  expect(docs.join("\n").trim().split(/\s+/).length).toBeLessThanOrEqual(14_000);
 });
 
 describe("commands", () => {

@@ -3,17 +3,18 @@ import { parseArgs } from "node:util";
 import { HprError } from "../base/errors.js";
 import type { ChosenColumns } from "../formats/axes.js";
 import { viewSettings, type VisibilityOptions } from "../query/view-options.js";
-import type { TransferOptions } from "../query/transfer.js";
+import { MERGES } from "../query/merge-values.js";
+import { type TransferOptions, WEIGHTS } from "../query/transfer.js";
 import { MAX_WORKERS } from "../worker/workers.js";
 import { endingOf, FORMATS } from "./formats/formats.js";
 import { chosenFormat, type OutputFormat } from "./output-format.js";
 import {
+  oneOf,
   readColumns,
   readCount,
   readExponent,
   readInversion,
   readLooks,
-  readMerge,
   readRadius,
   readThreshold,
   readViewpoint,
@@ -25,14 +26,10 @@ export interface Settings {
   /** The name of a file, or "-" for standard output. */
   output: string;
   format: OutputFormat;
-  /** From where: a viewpoint, or the name of a file with a camera, with viewpoints, or with cameras. */
-  place:
-    | { viewpoint: number[] }
-    | { camera: string }
-    | { viewpoints: string; each: boolean }
-    | { cameras: string; each: boolean };
+  /** From where: a viewpoint, or the name of a file with viewpoints, or with cameras. */
+  place: { viewpoint: number[] } | { viewpoints: string; each: boolean } | { cameras: string; each: boolean };
   /** The folder of the cameras' images, and how their values become one. */
-  images: { folder: string; merge: TransferOptions["merge"] } | undefined;
+  images: ({ images: string } & Pick<TransferOptions, "merge" | "weights">) | undefined;
   options: VisibilityOptions;
   /** The least score of a point that counts as visible. Undefined for the answer's own choice. */
   threshold: number | undefined;
@@ -60,9 +57,9 @@ export function readArguments(args: string[]): Settings | "help" | "version" {
   if (others.length > 0) throw new UsageProblem(`one file at a time, not also ${others.join(", ")}`);
   checkInput(input, values.columns !== undefined);
   const { output } = values;
-  const given = (["from", "camera", "viewpoints", "cameras"] as const).filter((name) => values[name] !== undefined);
+  const given = (["from", "viewpoints", "cameras"] as const).filter((name) => values[name] !== undefined);
   if (given.length === 0) {
-    throw new UsageProblem("--from X,Y,Z is needed: the viewpoint; or --camera, --viewpoints or --cameras FILE");
+    throw new UsageProblem("--from X,Y,Z is needed: the viewpoint; or --viewpoints or --cameras FILE");
   }
   if (given.length > 1) throw new UsageProblem(`--${given.join(" and --")} exclude each other; give one of them`);
   if (output === undefined) throw new UsageProblem("-o OUT is needed: the file to write");
@@ -78,7 +75,6 @@ export function readArguments(args: string[]): Settings | "help" | "version" {
   const format = chosenFormat(values.format, {
     input,
     output,
-    camera: values.camera !== undefined,
     cameras: values.cameras !== undefined,
     images: values.images !== undefined,
     coverage: values.coverage === true,
@@ -92,12 +88,17 @@ export function readArguments(args: string[]): Settings | "help" | "version" {
     place:
       values.from !== undefined
         ? { viewpoint: readViewpoint(values.from) }
-        : values.camera !== undefined
-          ? { camera: values.camera }
-          : values.cameras !== undefined
-            ? { cameras: values.cameras, each }
-            : { viewpoints: values.viewpoints!, each },
-    images: values.images === undefined ? undefined : { folder: values.images, merge: readMerge(values.merge) },
+        : values.cameras !== undefined
+          ? { cameras: values.cameras, each }
+          : { viewpoints: values.viewpoints!, each },
+    images:
+      values.images === undefined
+        ? undefined
+        : {
+            images: values.images,
+            merge: oneOf("merge", values.merge, MERGES),
+            weights: oneOf("weights", values.weights, WEIGHTS),
+          },
     options,
     threshold,
     columns: values.columns === undefined ? undefined : readColumns(values.columns),
@@ -117,11 +118,11 @@ function parsed(args: string[]) {
       allowPositionals: true,
       options: {
         from: { type: "string" },
-        camera: { type: "string" },
         viewpoints: { type: "string" },
         cameras: { type: "string" },
         images: { type: "string" },
         merge: { type: "string" },
+        weights: { type: "string" },
         output: { type: "string", short: "o" },
         format: { type: "string" },
         coverage: { type: "boolean" },
@@ -225,7 +226,9 @@ function checkCompany({ format, options, threshold, isOne, each, values }: Compa
   const many = values.viewpoints ?? values.cameras;
   needs(!coverage || many !== undefined, "--coverage", "--viewpoints FILE or --cameras FILE");
   needs(values.images === undefined || values.cameras !== undefined, "--images", "--cameras FILE");
-  needs(values.merge === undefined || values.images !== undefined, "--merge", "--images DIR");
+  for (const name of ["merge", "weights"] as const) {
+    needs(values[name] === undefined || values.images !== undefined, `--${name}`, "--images DIR");
+  }
   needs(format !== "colors" || values.images !== undefined, "--format colors", "--images DIR");
   excludes(values.images !== undefined && format !== "colors", "--images", `--format ${format}`);
   excludes(values.images !== undefined && coverage, "--images", "--coverage");
@@ -238,11 +241,7 @@ function checkCompany({ format, options, threshold, isOne, each, values }: Compa
   excludes(coverage && each, "--coverage", `${NAME} in the name of the output`);
   excludes(coverage && format !== "counts", "--coverage", `--format ${format}`);
   needs(format !== "counts" || coverage, "--format counts", "--coverage");
-  needs(
-    format !== "pixels" || values.camera !== undefined || (values.cameras !== undefined && each),
-    "--format pixels",
-    `--camera FILE, or --cameras FILE with ${NAME} in the name of the output`,
-  );
+  needs(format !== "pixels" || values.cameras !== undefined, "--format pixels", "--cameras FILE");
   const scored = threshold !== undefined ? "--score-threshold" : "--format scores";
   if (threshold === undefined && format !== "scores") return;
   needs(options.looks !== undefined, scored, "--looks 2 or 3");

@@ -12,11 +12,10 @@ import type { NamedCamera, NamedSeat } from "./places.js";
 
 /** What is asked of the cloud. */
 export type Question = { options: VisibilityOptions; threshold: number | undefined } & (
-  | { kind: "view"; viewpoint: number[] }
-  | { kind: "camera"; camera: Camera }
+  | { kind: "view"; seats: [NamedSeat] }
   | { kind: "each" | "any" | "coverage"; seats: NamedSeat[] }
   | { kind: "rows"; seats: NamedCamera[] }
-  | { kind: "colors"; seats: NamedCamera[]; images: string; merge: TransferOptions["merge"] }
+  | ({ kind: "colors"; seats: NamedCamera[]; images: string } & Pick<TransferOptions, "merge" | "weights">)
 );
 
 export interface Answer {
@@ -72,7 +71,7 @@ export async function* ask(
 
 /** Whether several workers can share the work: the viewpoints, or each view. */
 function isShared({ kind, options }: Question): boolean {
-  const isOne = kind === "view" || kind === "camera" || kind === "each";
+  const isOne = kind === "view" || kind === "each";
   return !isOne || isDivisible(3, viewSettings({ ...options }, 3));
 }
 
@@ -99,10 +98,7 @@ async function* answers(
   };
   switch (question.kind) {
     case "view":
-      yield await from(question.viewpoint);
-      return;
-    case "camera":
-      yield await from(question.camera);
+      yield await from(question.seats[0].seat);
       return;
     case "each":
       for (const [i, { name, seat }] of question.seats.entries()) {
@@ -125,10 +121,10 @@ async function* answers(
       return;
     }
     case "colors": {
-      const { seats, merge } = question;
+      const { seats, merge, weights } = question;
       const images = await Promise.all(seats.map(({ image }) => readImage(question.images, image)));
       const cameras = seats.map(({ seat }) => seat);
-      const colors = await transfer(cloud, cameras, images, { ...listening, merge });
+      const colors = await transfer(cloud, cameras, images, { ...listening, merge, weights });
       yield { indices: atLeast(colors.seen, 1), colors };
     }
   }

@@ -19,19 +19,12 @@ export function farNote(positions: Float32Array | Float64Array, question: Questi
   return `note: ${first.name} is ${said(first.distance)} units from the cloud, whose extent is ${said(extent)}${others}`;
 }
 
-function viewpointsOf(question: Question): { name: string; viewpoint: readonly number[] }[] {
-  switch (question.kind) {
-    case "view":
-      return [{ name: "the viewpoint", viewpoint: question.viewpoint }];
-    case "camera":
-      return [{ name: "the camera", viewpoint: placeOf(question.camera) }];
-    default:
-      return question.seats.map(({ name, seat }) =>
-        isCamera(seat)
-          ? { name: `the camera ${name}`, viewpoint: placeOf(seat as Camera) }
-          : { name: `the viewpoint ${name}`, viewpoint: seat as number[] },
-      );
-  }
+function viewpointsOf({ seats }: Question): { name: string; viewpoint: readonly number[] }[] {
+  return seats.map(({ name, seat }) =>
+    isCamera(seat)
+      ? { name: `the camera ${name}`, viewpoint: placeOf(seat as Camera) }
+      : { name: `the viewpoint${name === "" ? "" : ` ${name}`}`, viewpoint: seat as number[] },
+  );
 }
 
 /** The place of a camera whose pose was read, except for the rounding of its numbers. */

@@ -1,5 +1,5 @@
 export const HELP = `Usage: hidden-point-removal IN --from X,Y,Z -o OUT [options]
-       hidden-point-removal IN --camera CAMERA.json -o OUT.csv
+       hidden-point-removal IN --cameras CAMERA.json --format pixels -o OUT.csv
        hidden-point-removal IN --viewpoints PLACES.csv [--coverage] -o OUT
        hidden-point-removal IN --images DIR --cameras FILE -o COLORED.ply
 
@@ -10,19 +10,19 @@ in an image, from how many places or by which cameras each point is seen, or its
                        also packed (.gz)
   --columns X,Y,Z      which columns of IN are x, y and z: their names or numbers from 1
 
-From where (one of the four, in the coordinates of the file):
+From where (one of the three, in the coordinates of the file):
   --from X,Y,Z         one viewpoint
-  --camera FILE        one camera: a JSON file with cameraToWorld, fx, fy, cx, cy,
-                       width, height and, if needed, model, distortion, near, far
   --viewpoints FILE    many viewpoints: a table with the columns x,y,z or name,x,y,z; or cameras
                        (a folder, or an ending .json, .yaml or .bin)
-  --cameras FILE       many cameras: a list of such JSON objects, each with the name of its
-                       "image"; COLMAP's folder with cameras and images; transforms.json of
-                       nerfstudio; calib.txt of KITTI
+  --cameras FILE       one or many cameras: a JSON object with cameraToWorld, fx, fy, cx, cy, width,
+                       height and, if needed, model, distortion, near, far, or a list of such, each
+                       with the name of its "image"; COLMAP's folder with cameras and images;
+                       transforms.json of nerfstudio; calib.txt of KITTI; YAML of OpenCV and ROS
   --images DIR         with --cameras: the folder of their images. Each point gets the color
                        that the cameras see there (needs sharp: npm install sharp)
   --merge M            how the values of several images become one: mean (the default), median,
                        vote (for labels) or best (the nearest camera)
+  --weights W          how much a camera counts there: distance, angle or score
 
 How (the defaults fit most clouds):
   --radius R           R in the units of the file; or auto (the default), search, opposite
@@ -41,12 +41,11 @@ What to write:
                        of them sees
   --coverage           with --viewpoints or --cameras: how many of them see each point
   --format F           points (a file like IN, or PLY or LAS), indices, mask, scores (with looks), pixels
-                       (index, u, v, depth; with --camera), counts (with --coverage), colors
+                       (index, u, v, depth; of one camera, or with {name}), counts (with --coverage), colors
                        (with --images: a PLY file of all points with their colors and "seen", the
                        number of cameras; or a table) or vis (with --cameras: COLMAP's file of
                        which images see each point, OUT.vis). The default follows from OUT: an
-                       ending like IN's is points, .idx indices, .mask and .npy a mask; with
-                       --camera, a table or .npy is pixels
+                       ending like IN's is points, .idx indices, .mask and .npy a mask
                        All but points are text, one line each, or NumPy arrays (.npy)
   --overwrite          OUT may be the same file as IN, CAMERA or PLACES
   --damaged            reads a file that contradicts itself, and says how

@@ -17,7 +17,7 @@ import { HELP } from "./help.js";
 import { numbersWritten } from "./numbers.js";
 import { isNumpy } from "./output-format.js";
 import { checkOutputs } from "./outputs.js";
-import { cameraIn, camerasIn, holdsCameras, viewpointsIn } from "./places.js";
+import { camerasIn, holdsCameras, viewpointsIn } from "./places.js";
 import { Progress } from "./progress.js";
 import { UsageProblem } from "./values.js";
 
@@ -101,20 +101,27 @@ async function filter(settings: Settings, progress: Progress): Promise<string> {
 async function questionOf({ place, images, options, threshold, format }: Settings): Promise<Question> {
   const asked = { options, threshold };
   const quietly = () => undefined;
-  if ("viewpoint" in place) return { ...asked, kind: "view", viewpoint: place.viewpoint };
-  if ("camera" in place) return { ...asked, kind: "camera", camera: await readAs(place.camera, quietly, cameraIn) };
+  if ("viewpoint" in place) return { ...asked, kind: "view", seats: [{ name: "", seat: place.viewpoint }] };
   const kind = place.each ? "each" : format === "counts" ? "coverage" : "any";
   const file = "cameras" in place ? place.cameras : place.viewpoints;
   if ("viewpoints" in place && !(await holdsCameras(file))) {
     return { ...asked, kind, seats: await readAs(file, quietly, (bytes) => viewpointsIn(bytes, place.each)) };
   }
   const seats = await camerasIn(file, place.each);
-  if (images !== undefined) return { ...asked, kind: "colors", seats, images: images.folder, merge: images.merge };
+  if (images !== undefined) return { ...asked, kind: "colors", seats, ...images };
+  const [first, ...others] = seats;
+  if (kind === "any" && format !== "vis" && first !== undefined && others.length === 0) {
+    return { ...asked, kind: "view", seats: [first] };
+  }
+  if (format === "pixels" && !place.each) {
+    throw new UsageProblem(
+      `--format pixels needs one camera, or ${NAME} in the name of OUT; ${file} has ${seats.length}`,
+    );
+  }
   return { ...asked, kind: format === "vis" ? "rows" : kind, seats };
 }
 
 function placeFiles({ place }: Settings): string[] {
-  if ("camera" in place) return [place.camera];
   if ("cameras" in place) return [place.cameras];
   return "viewpoints" in place ? [place.viewpoints] : [];
 }

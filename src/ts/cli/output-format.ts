@@ -17,7 +17,6 @@ const VIS = ".vis";
 interface Asked {
   input: string;
   output: string;
-  camera: boolean;
   cameras: boolean;
   images: boolean;
   coverage: boolean;
@@ -26,7 +25,7 @@ interface Asked {
 /** What to write, by the option `--format` or the name of the output. */
 export function chosenFormat(
   given: string | undefined,
-  { input, output, camera, cameras, images, coverage }: Asked,
+  { input, output, cameras, images, coverage }: Asked,
 ): OutputFormat {
   const format = (OUTPUT_FORMATS as readonly string[]).includes(given ?? "") ? (given as OutputFormat) : undefined;
   if (given !== undefined && format === undefined) {
@@ -40,7 +39,7 @@ export function chosenFormat(
     throw new UsageProblem(`${output} must end with ${endings.join(", ")} for ${format ?? "colors"}`);
   }
   const isLike = writtenAs(input, output) !== undefined;
-  const chosen = format ?? (coverage ? "counts" : byEnding(wanted, isLike, output === "-", camera));
+  const chosen = format ?? (coverage ? "counts" : byEnding(wanted, isLike, output === "-"));
   if (output === "-") return chosen ?? "points";
   if (chosen === undefined || (chosen === "points" && !isLike)) {
     const like = [...new Set([...FORMATS[is]!.written, ...CONVERTED])].join(", ");
@@ -56,8 +55,7 @@ export function chosenFormat(
   return chosen;
 }
 
-function byEnding(ending: string, isLike: boolean, isStandard: boolean, camera: boolean): OutputFormat | undefined {
-  if (camera && (isStandard || [".csv", ".txt", NUMPY].includes(ending))) return "pixels";
+function byEnding(ending: string, isLike: boolean, isStandard: boolean): OutputFormat | undefined {
   if (isLike || isStandard) return "points";
   return ({ ".idx": "indices", ".mask": "mask", [NUMPY]: "mask" } as const)[ending];
 }

@@ -2,31 +2,14 @@
 import { stat } from "node:fs/promises";
 import { parse } from "node:path";
 
-import { HprError } from "../base/errors.js";
-import { FormatProblem, lineProblem, printable } from "../formats/problem.js";
+import { lineProblem, printable } from "../formats/problem.js";
 import { TableRows } from "../formats/table.js";
 import { cell, isComment, separatorOf, split } from "../formats/table-words.js";
 import { bytesSource, lines as linesOf } from "../formats/source.js";
 import { trimmed } from "../formats/text.js";
 import { readCameras } from "../files/read-cameras.js";
-import { type Camera, readCamera } from "../query/camera.js";
+import type { Camera } from "../query/camera.js";
 import { InputProblem } from "./files.js";
-
-/** A camera as a JSON object. It is checked as the library checks it, before the points are read. */
-export function cameraIn(file: Buffer): Camera {
-  let camera: unknown;
-  try {
-    camera = JSON.parse(file.toString("utf8"));
-  } catch (cause) {
-    throw new FormatProblem(`it is not JSON: ${(cause as Error).message}`, { cause });
-  }
-  try {
-    readCamera(camera);
-  } catch (cause) {
-    throw cause instanceof HprError ? new FormatProblem(cause.message, { cause }) : cause;
-  }
-  return camera as Camera;
-}
 
 /** A viewpoint, or a camera in its place. */
 export interface NamedSeat {

@@ -1,6 +1,5 @@
 // Reads the values of single arguments.
 import { type ChosenColumns, isNumber } from "../formats/axes.js";
-import { type Merge, MERGES } from "../query/merge-values.js";
 import type { RadiusRule, VisibilityOptions } from "../query/view-options.js";
 
 /** Wrong usage: the message says what is wrong. */
@@ -54,12 +53,12 @@ export function readLooks(text: string): 0 | 2 | 3 {
   return looks;
 }
 
-export function readMerge(text: string | undefined): Merge | undefined {
-  const merge = MERGES.find((name) => name === text);
-  if (text !== undefined && merge === undefined) {
-    throw new UsageProblem(`--merge needs one of ${MERGES.join(", ")}, not ${text}`);
+export function oneOf<T extends string>(option: string, text: string | undefined, words: readonly T[]): T | undefined {
+  const word = words.find((name) => name === text);
+  if (text !== undefined && word === undefined) {
+    throw new UsageProblem(`--${option} needs one of ${words.join(", ")}, not ${text}`);
   }
-  return merge;
+  return word;
 }
 
 /** @param option the name of the option, for the message */

@@ -35,7 +35,7 @@ export interface Transferred {
   seen: Uint32Array<ArrayBuffer>;
 }
 
-const WEIGHTS = ["distance", "angle", "score"] as const;
+export const WEIGHTS = ["distance", "angle", "score"] as const;
 const SAMPLINGS = ["nearest", "bilinear"] as const;
 export const TRANSFER_OPTIONS = [...COVERAGE_OPTIONS, "merge", "weights", "sampling"] as const;
 
