@@ -80,13 +80,11 @@ let usual: Status | undefined;
 
 test.for([
   [
-    "exponent=400&view=1e300,0,0&freeze=1e300,0,0&light=1e300,0,0&light=0,1e20,0&denoise=101&points=1.5",
+    "exponent=400&view=1e300,0,0&freeze=1e300,0,0&points=1.5",
     [
       /exponent in the address is not a number from 0 to 6/,
       /view in the address is too far away/,
       /frozen viewpoint in the address is too far away/,
-      /light in the address is too far away/,
-      /denoise in the address is not an integer from 0 to 100/,
       /number of points in the address is not an integer from 1 to 10000000, so the largest of these is used/,
     ],
   ],
@@ -97,7 +95,6 @@ test.for([
   const { state, total, visible, viewpoint } = usual;
   const now = await settled(page);
   expect(now).toMatchObject({ state, total, visible, viewpoint });
-  expect(now.lights).toBeUndefined();
   const message = await page.locator("#message").textContent();
   for (const note of notes) expect(message).toMatch(note);
 });

@@ -51,7 +51,7 @@ class Scene {
     this.made += 1;
     const ask = (kind: string, signal: AbortSignal) =>
       new Promise((resolve, reject) => {
-        const visibility = { count: 1, indices: new Uint32Array(1), triangles: new Uint32Array(0) };
+        const visibility = { count: 1, indices: new Uint32Array(1) };
         this.asked.push({
           kind,
           signal,
@@ -66,16 +66,11 @@ class Scene {
       spacing: 1,
       visibleFrom: (_: unknown, { kind, signal, draft }: { kind: string; signal: AbortSignal; draft?: boolean }) =>
         ask(draft ? "draft" : kind, signal),
-      visibleFromAny: (_: unknown, { kind, signal, draft }: { kind: string; signal: AbortSignal; draft?: boolean }) =>
-        ask(draft ? "draft" : kind, signal),
       visibilityMap: () => ask("map", new AbortController().signal),
-      reconstruct: (_: unknown, { signal }: { signal: AbortSignal }) => ask("surface", signal),
-      autoRadius: () => Promise.resolve({ exponent: 1 }),
       dispose: () => Promise.resolve((this.disposed += 1)),
     };
     const options = ({ looks }: { looks: number }) => Promise.resolve({ kind: looks > 0 ? "looks" : "operator" });
-    const ring = () => Promise.resolve([]);
-    return { points, center: [0, 0, 0], options, ring } as unknown as WorkerCloud;
+    return { points, center: [0, 0, 0], options } as unknown as WorkerCloud;
   }
 
   flush = () => new Promise((resolve) => setImmediate(resolve));
@@ -129,25 +124,16 @@ test("the first view is answered by a draft, one hull and looks; a move by maps,
 });
 
 test("what a map cannot tell is answered by drafts while the view moves", async () => {
-  for (const settings of [
-    { vote: 8 },
-    { denoise: 8 },
-    { viewpoints: "any" },
-    { looks: 0, radius: { rule: "search" } },
-  ] as const) {
-    const scene = await Scene.of(100_000, settings);
-    scene.asked.length = 0;
-    await scene.kinds(250);
-    await scene.move(1);
-    expect((await scene.kinds(9))[0], JSON.stringify(settings)).toBe("draft");
-  }
+  const scene = await Scene.of(100_000, { looks: 0, radius: { rule: "search" } });
+  scene.asked.length = 0;
+  await scene.kinds(250);
+  await scene.move(1);
+  expect((await scene.kinds(9))[0]).toBe("draft");
 });
 
-test("a small cloud has no drafts, and a surface neither drafts nor looks", async () => {
+test("a small cloud has no drafts", async () => {
   const small = await Scene.of(1000);
   expect([small.asked.splice(0)[0]!.kind, ...(await small.kinds(250))]).toEqual(["operator", "looks"]);
-  const surface = await Scene.of(100_000, { show: "surface" });
-  expect([surface.asked.splice(0)[0]!.kind, ...(await surface.kinds(250))]).toEqual(["surface"]);
 });
 
 test("after a change of settings there is no draft, and nothing known is asked again", async () => {

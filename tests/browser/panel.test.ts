@@ -45,9 +45,6 @@ test("an address opens the sections that have its settings", async () => {
     ["radius=search", ["Advanced"]],
     ["exponent=2", ["Advanced"]],
     ["looks=2", ["Advanced"]],
-    ["denoise=6", ["Advanced", "Noise"]],
-    ["show=surface", ["Advanced", "Surface"]],
-    ["inversion=power", ["Advanced", "Method and viewpoints"]],
     ["color=height", ["Look"]],
   ] as const) {
     await page.goto(`${site.address}?sample=bunny&${query}`);

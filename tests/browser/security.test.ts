@@ -152,7 +152,7 @@ test("a whole session sends requests only to this site, and to the address of ?s
     "access-control-allow-origin": "*",
   });
   try {
-    const page = await openReady("?sample=bunny&light=5,5,5", { serviceWorkers: "allow" }, note);
+    const page = await openReady("?sample=bunny", { serviceWorkers: "allow" }, note);
     await page.evaluate(() => navigator.serviceWorker.ready);
     await drag(page, 60, 20);
     await upToDate(page);

@@ -64,11 +64,6 @@ async function around(page: Page): Promise<void> {
   for (const mode of ["dimmed", "shown", "off"]) await press(page, `[name="hidden"][value="${mode}"]`);
   await unfold(page, "Look");
   for (const color of ["height", "own"]) await page.selectOption("#color", color);
-  await press(page, '[name="show"][value="surface"]');
-  await press(page, "#add-light");
-  await step(page, "ArrowRight");
-  await press(page, "#lights-list button");
-  await press(page, '[name="show"][value="points"]');
   for (const frozen of [true, false]) await press(page, `#freeze[aria-pressed="${!frozen}"]`);
   for (const compared of [true, false]) await press(page, `#tool-compare[aria-pressed="${!compared}"]`);
   await press(page, "#tool-measure");

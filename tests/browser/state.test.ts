@@ -8,20 +8,14 @@ async function written(page: Page): Promise<string> {
   return new URL(page.url()).search;
 }
 
-function same({ visible, viewpoint, radius, inversion, show, triangles, lights }: Status) {
-  return { visible, viewpoint, radius, inversion, show, triangles, lights };
+function same({ visible, viewpoint, radius, inversion }: Status) {
+  return { visible, viewpoint, radius, inversion };
 }
 
 test("a copied address shows the same cloud, camera and settings again", async () => {
   const page = await openReady("?sample=dragon_res4");
-  await unfold(page, "Surface");
-  await page.getByRole("radio", { name: "Surface" }).check();
-  await page.getByLabel("Longest edge").fill("8");
-  await unfold(page, "Light and shadow");
-  await page.getByRole("button", { name: "Add a light" }).click();
-  await page.getByLabel("Soft edges").fill("0.2");
-  await unfold(page, "Method and viewpoints");
-  await page.getByRole("radio", { name: "Exponential" }).check();
+  await unfold(page, "Advanced");
+  await page.getByRole("radio", { name: "2 looks" }).check();
   await page.getByRole("radio", { name: "Ghost" }).check();
   await unfold(page, "Look");
   await page.getByLabel("Point size").fill("2");
@@ -29,43 +23,24 @@ test("a copied address shows the same cloud, camera and settings again", async (
   await drag(page, 90, 40);
   const query = await written(page);
   expect(query).toMatch(/^\?sample=dragon_res4&/);
-  for (const part of [
-    "show=surface",
-    "edge=8",
-    "soft=0.2",
-    "inversion=exponential",
-    "hidden=dimmed",
-    "size=2",
-    "fov=30",
-    "light=",
-    "view=",
-  ]) {
-    expect(query).toContain(part);
-  }
+  for (const part of ["looks=2", "hidden=dimmed", "size=2", "fov=30", "view="]) expect(query).toContain(part);
   const before = same(await upToDate(page));
   const again = await openReady(query);
   expect(same(await upToDate(again))).toEqual(before);
   expect(await again.getByLabel("Point size").inputValue()).toBe("2");
   expect(await again.getByLabel("Field of view", { exact: true }).inputValue()).toBe("30");
-  expect(await again.getByLabel("Longest edge").inputValue()).toBe("8");
   expect(await again.getByRole("radio", { name: "Ghost" }).isChecked()).toBe(true);
   expect(await written(again)).toBe(query);
 });
 
-test("the address also restores the rule of the radius, the ring, noise, the frozen viewpoint and the up axis", async () => {
-  const page = await openReady("?sample=bunny");
+test("the address also restores the rule of the radius, the frozen viewpoint and the up axis", async () => {
+  const page = await openReady("?sample=bunny&radius=search");
   await unfold(page, "Look");
   await page.locator("#up-axis").getByRole("radio", { name: "Z", exact: true }).check();
-  await unfold(page, "Advanced");
-  await page.getByRole("button", { name: "Best of 6" }).click();
-  await unfold(page, "Method and viewpoints");
-  await page.getByRole("radio", { name: "At least 2" }).check();
-  await unfold(page, "Noise");
-  await page.locator("#denoise").getByRole("radio", { name: "6", exact: true }).check();
   await page.getByRole("button", { name: "Freeze viewpoint" }).click();
   await drag(page, 120, 0);
   const query = await written(page);
-  for (const part of ["radius=search", "viewpoints=two", "denoise=6", "up=z", "freeze=", "view="]) {
+  for (const part of ["radius=search", "up=z", "freeze=", "view="]) {
     expect(query).toContain(part);
   }
   const again = await openReady(query);
@@ -96,21 +71,12 @@ test("at the first view and with the usual settings the address is empty", async
 
 test("a message names everything in the address that is not possible", async () => {
   const page = await openReady(
-    "?sample=bunny&radius=-1&inversion=power:17&viewpoints=six&denoise=1.5&vote=x&show=mesh&edge=0&light=1,2&soft=2&ambient=-1&smoothing=z&freeze=1&hidden=maybe&size=0&fov=400&up=x&target=1,2&embed=yes",
+    "?sample=bunny&radius=-1&inversion=power:17&freeze=1&hidden=maybe&size=0&fov=400&up=x&target=1,2&embed=yes",
   );
   const message = (await page.locator("#message p").textContent())!;
   const named = [
     /radius/,
     /inversion/,
-    /viewpoints/,
-    /denoise/,
-    /vote/,
-    /kind of picture/,
-    /longest edge/,
-    /light/,
-    /softness/,
-    /ambient/,
-    /smoothing/,
     /frozen viewpoint/,
     /hidden points/,
     /point size/,
@@ -131,23 +97,21 @@ test("a radius and an exponent exclude each other", async () => {
 });
 
 test("the settings of one cloud do not go to the next", async () => {
-  const page = await openReady("?sample=bunny&view=1,8,-12&light=0,20,0&freeze=1,8,-12&size=2&radius=40&denoise=6");
-  const before = await upToDate(page);
+  const page = await openReady("?sample=bunny&view=1,8,-12&freeze=1,8,-12&size=2&radius=40&hidden=shown");
+  await upToDate(page);
   await page.locator("#sample").selectOption("dragon_res4");
   await page.locator('#status[data-total="5205"]').waitFor();
-  expect(before.lights).toBe(1);
   const query = await written(page);
-  expect(new URLSearchParams(query).get("denoise")).toBe("6");
-  for (const gone of ["view", "light", "freeze", "size", "radius"]) expect(query).not.toContain(`${gone}=`);
-  expect((await status(page)).lights).toBeUndefined();
+  expect(new URLSearchParams(query).get("hidden")).toBe("shown");
+  for (const gone of ["view", "freeze", "size", "radius"]) expect(query).not.toContain(`${gone}=`);
 });
 
 test("?embed=1 shows only the picture", async () => {
-  const page = await openReady("?sample=dragon_res4&embed=1&light=0,0.3,0.2");
+  const page = await openReady("?sample=dragon_res4&embed=1");
   await upToDate(page);
   const box = (await page.locator("#view").boundingBox())!;
   expect(box).toMatchObject({ x: 0, y: 0, width: 1000, height: 700 });
-  for (const chrome of ["#sheet", "#hidden-points", "#tools", "#lights", "#progress"]) {
+  for (const chrome of ["#sheet", "#hidden-points", "#tools", "#progress"]) {
     expect(await page.locator(chrome).isVisible()).toBe(false);
   }
   expect((await status(page)).total).toBe(5205);
@@ -170,9 +134,9 @@ test("data-busy is 1 from a change until its answer is there", async () => {
   const page = await openReady("?sample=dragon_res4");
   await upToDate(page);
   const busy = await page.evaluate(() => {
-    document.querySelector<HTMLButtonElement>('#radius button[value="search"]')!.click();
+    document.querySelector<HTMLElement>('[name="looks"][value="2"]')!.click();
     return document.getElementById("status")!.dataset["busy"];
   });
   expect(busy).toBe("1");
-  expect((await upToDate(page)).evaluations).toBe(6);
+  expect((await upToDate(page)).inversion).toMatch(/^looks:[^,]+,[^,]+$/);
 });

@@ -69,7 +69,7 @@ test("a radius in the octree's units is taken, and c counts in its spacings", as
 
 test("settings that need all points are answered by the coarser levels alone, and the page says so", async () => {
   served.set("ranged/octree.copc.laz", content);
-  const page = await openReady(`?src=ranged/octree.copc.laz&${LIMIT}&denoise=6`);
+  const page = await openReady(`?src=ranged/octree.copc.laz&${LIMIT}&exponent=2`);
   const now = await status(page);
   expect(now).toMatchObject({ state: "ready", answer: "draft", total: 3000 });
   expect(await said(page)).toContain("of the 1,000 points of the coarser levels can be seen from here");

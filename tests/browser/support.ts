@@ -123,9 +123,6 @@ export interface Status {
   milliseconds: number;
   refilters: number;
   evaluations: number;
-  triangles?: number;
-  lights?: number;
-  show: string;
   inversion: string;
   /** 1 while an answer to the present settings is still to come. */
   busy: number;
@@ -133,13 +130,12 @@ export interface Status {
 
 export async function status(page: Page): Promise<Status> {
   return page.locator("#status").evaluate((element: HTMLElement) => {
-    const { state, answer, viewpoint, show, inversion, ...numbers } = element.dataset;
+    const { state, answer, viewpoint, inversion, ...numbers } = element.dataset;
     const values = Object.fromEntries(Object.entries(numbers).map(([name, value]) => [name, Number(value)]));
     return {
       ...values,
       state,
       answer,
-      show,
       inversion,
       viewpoint: viewpoint?.split(",").map(Number),
     } as unknown as Status;

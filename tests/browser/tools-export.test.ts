@@ -133,7 +133,7 @@ test("the picture is saved as it is on the screen, with its marks", async () => 
       top: canvas.y + canvas.height / 2 - 40,
       bottom: canvas.y + canvas.height / 2 + 40,
     });
-    await clickPoint(page, places[0]);
+    await clickPoint(page, places[0]!);
   }
   expect(await page.locator("#marks .measure").count()).toBe(1);
   await tool(page, "Export").click();

@@ -4,8 +4,6 @@ import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 
 import { HprError } from "../../src/ts/base/errors.js";
 import { type Followed, Follower, type Round } from "../../src/ts/follow/follower.js";
-import { Newest } from "../../www/ask/newest.js";
-import { Overtaken } from "../../www/ask/overtaken.js";
 import { Readiness } from "../../src/ts/follow/readiness.js";
 import { Recovery, type RecoveryTimes } from "../../src/ts/follow/recovery.js";
 import { Rest } from "../../www/ask/rest.js";
@@ -31,11 +29,40 @@ interface Asked {
   refuse: (error: Error) => void;
 }
 
+/** The newest of several questions. One that was taken hears that another has overtaken it. */
+class Newest {
+  #wanted: string | undefined;
+  #asked: string | undefined;
+  #overtaking = new AbortController();
+
+  get isNew(): boolean {
+    return this.#wanted !== this.#asked;
+  }
+
+  get signal(): AbortSignal {
+    return this.#overtaking.signal;
+  }
+
+  want(question: string): void {
+    this.#wanted = question;
+    if (this.isNew) this.#overtaking.abort();
+  }
+
+  take(): string {
+    this.#overtaking = new AbortController();
+    return (this.#asked = this.#wanted)!;
+  }
+
+  forget(): void {
+    this.#asked = undefined;
+  }
+}
+
 /** Something that moves, its follower, and a record of all that happens. */
 class Scene {
   readonly asked: Asked[] = [];
   readonly log: string[] = [];
-  readonly newest = new Overtaken<string>((a, b) => a === b);
+  readonly newest = new Newest();
   readonly follower: Follower;
   /** For a question: the value that is returned at once, or the error that is thrown, instead of a promise. */
   readonly atOnce = new Map<string, string | Error>();
@@ -434,35 +461,6 @@ describe("a lost worker is made again", () => {
     recovery.notices(LOST);
     recovery.stop();
     expect(lose(5000)).toEqual([]);
-  });
-});
-
-describe("the newest question", () => {
-  it("stays the same within a tolerance, and is new beyond it", () => {
-    const newest = new Newest<{ at: number }>((a, b) => Math.abs(a.at - b.at) < 1);
-    expect(newest.isNew).toBe(false);
-    const first = { at: 0 };
-    newest.want(first);
-    newest.want({ at: 0.6 });
-    expect(newest.wanted).toBe(first);
-    expect(newest.take()).toBe(first);
-    expect([newest.isNew, newest.asked]).toEqual([false, first]);
-    newest.want({ at: 1.2 });
-    expect(newest.isNew).toBe(true);
-    newest.want({ at: 0.1 });
-    expect(newest.isNew).toBe(false);
-  });
-
-  it("can be asked anew, and taken back", () => {
-    const newest = new Newest<string>((a, b) => a === b);
-    newest.want("a");
-    newest.take();
-    newest.forget();
-    expect(newest.isNew).toBe(true);
-    newest.clear();
-    expect([newest.isNew, newest.wanted, newest.asked]).toEqual([false, undefined, undefined]);
-    newest.want("a");
-    expect(newest.isNew).toBe(true);
   });
 });
 

@@ -9,26 +9,18 @@ import {
 } from "hidden-point-removal/worker";
 import type { Cloud } from "../cloud/cloud.ts";
 import type { Settings, Viewpoint } from "../settings/settings.ts";
-import { askLight, type LightAnswer } from "./lights.ts";
-import { Overtaken } from "./overtaken.ts";
 import {
-  isAutomatic,
-  isSameLight,
   isSamePlace,
   isSameView,
   isSearched,
   isSlow,
   kindOf,
-  type LightQuestion,
   mappedStagesOf,
   type Method,
-  operatorOf,
-  quickLight,
   stagesOf,
   type ViewQuestion,
   viewOf,
 } from "./question.ts";
-import { Rest } from "./rest.ts";
 import { SecondCloud } from "./second-cloud.ts";
 import { askMap, askView, type ViewAnswer } from "./views.ts";
 import type { WorkerCloud } from "./worker-cloud.ts";
@@ -63,7 +55,7 @@ export interface Mapped {
 const DRAFTS_FROM = 50_000;
 /** After a draft, one hull is asked if the viewpoint has not moved for this number of milliseconds. */
 const PAUSE = 40;
-/** A viewpoint or a light that has not moved for this number of milliseconds is at rest. */
+/** A viewpoint that has not moved for this number of milliseconds is at rest. */
 const REST = 250;
 /** A lost worker is replaced once. After that, the user decides. */
 const ONCE = { delays: [0], pause: Infinity, longPause: Infinity };
@@ -71,17 +63,13 @@ const ONCE = { delays: [0], pause: Infinity, longPause: Infinity };
 const LOOKS_ASIDE_FROM = 200_000;
 
 /**
- * Keeps the answers up to date with the viewpoint and the settings: which points are seen, and how they are lit. Each
- * question is asked again only if something that it depends on has changed.
+ * Keeps the answer up to date with the viewpoint and the settings. It is asked again only if something that it depends on
+ * has changed.
  */
 export class Inquiry {
   onView: (answer: TimedView) => void = () => undefined;
   /** A map stands in for the answer, until the viewpoint rests. */
   onMap: (mapped: Mapped) => void = () => undefined;
-  /** `null`: there are no lights. */
-  onLight: (answer: LightAnswer | null) => void = () => undefined;
-  /** The exponent of the automatic radius at the viewpoint's last rest. */
-  onAutomatic: (exponent: number) => void = () => undefined;
   onError: (error: unknown) => void = () => undefined;
   /** Points to be shown instead of the cloud; `null`: the cloud again. Returns whether they are shown. */
   onDetail: (detail: Detail | null) => boolean = () => false;
@@ -101,7 +89,6 @@ export class Inquiry {
   #answered: ViewQuestion | null = null;
   /** Whether the worker is gone, and another one must hold the cloud. */
   #isLost = false;
-  readonly #lights = new Overtaken<LightQuestion>(isSameLight);
   readonly #viewFollower = new Follower(
     {
       next: () => (this.#isLost ? this.#remaking() : this.#viewRound()),
@@ -112,30 +99,13 @@ export class Inquiry {
         this.#isLost = true;
         this.#second.dispose();
         this.#second = new SecondCloud(this.#another);
-        this.#lights.forget();
         if (isComingBack) this.#refinement.begin(this.#stages);
       },
     },
     ONCE,
   );
-  readonly #lightFollower = new Follower({
-    next: () => (this.#lights.isNew ? this.#lightRound() : undefined),
-    refused: (error) => {
-      this.#litBy = this.#lights.asked;
-      // The worker is lost for the views as well.
-      if (error instanceof HprError && error.code === "internal") this.#viewFollower.refuse(error);
-      else this.onError(error);
-    },
-  });
-  /** The last question about light that was answered or refused. */
-  #litBy: LightQuestion | undefined;
   /** The last answer from one hull. */
   #hull: TimedView | null = null;
-  #mesh: Uint32Array | null = null;
-  #viewpoint: Viewpoint | null = null;
-  readonly #viewpointRest = new Rest(REST);
-  #lamps: Settings["lights"] | null = null;
-  readonly #lampsRest = new Rest(REST);
   #freeSince = 0;
   #hasMaps = false;
   #upToDate = false;
@@ -155,7 +125,6 @@ export class Inquiry {
 
   /** Returns the first answer. Nothing is shown before it. */
   async first(viewpoint: Viewpoint, settings: Settings): Promise<TimedView> {
-    this.#viewpoint = viewpoint;
     this.#wanted = viewOf(viewpoint, settings);
     // The first viewpoint counts as being at rest.
     this.#refinement.begin(this.#stages);
@@ -175,34 +144,11 @@ export class Inquiry {
     }
   }
 
-  /** Finds the automatic exponent if the answer does not contain it. Does nothing if a newer question waits. */
-  async findAutomatic(): Promise<void> {
-    const question = this.#wanted;
-    if (!question?.method.radius || isAutomatic(question.method)) return;
-    const { exponent } = await this.cloud.points.autoRadius(question.viewpoint);
-    if (question === this.#wanted) this.onAutomatic(exponent);
-  }
-
   /** Called every frame and after every change. Does nothing while the questions stay the same. */
   follow(viewpoint: Viewpoint, settings: Settings): void {
-    if (!this.#viewpoint || !isSamePlace(viewpoint, this.#viewpoint, this.#size)) {
-      this.#viewpoint = viewpoint;
-      this.#viewpointRest.moved();
-    }
-    if (this.#lamps !== settings.lights) {
-      // The first lights count as being at rest.
-      if (this.#lamps) this.#lampsRest.moved();
-      this.#lamps = settings.lights;
-    }
-
     this.#wantView(viewOf(viewpoint, settings));
     this.#viewFollower.follow();
-    const { lights, soft, ambient, smoothing } = settings;
-    const light: LightQuestion = { lights, soft, ambient, smoothing, method: operatorOf(settings), mesh: this.#mesh };
-    this.#wantLight(light, !this.#viewpointRest.isReached, !this.#lampsRest.isReached);
-
-    const isLit = lights.length === 0 || (this.#litBy !== undefined && isSameLight(this.#litBy, light));
-    this.#upToDate = this.#viewFollower.isLost || (this.#refinement.isSettled && isLit);
+    this.#upToDate = this.#viewFollower.isLost || this.#refinement.isSettled;
   }
 
   /** Makes a lost worker again, after `onError`. */
@@ -229,10 +175,9 @@ export class Inquiry {
   }
 
   dispose(): void {
-    this.onMap = this.onView = this.onLight = this.onAutomatic = this.onError = () => undefined;
+    this.onMap = this.onView = this.onError = () => undefined;
     this.#refinement.stop();
     this.#viewFollower.stop();
-    this.#lightFollower.stop();
     void this.cloud.points.dispose();
     this.#second.dispose();
   }
@@ -280,21 +225,6 @@ export class Inquiry {
     return isKnown ? Math.min(next + 1, stages.length - 1) : next;
   }
 
-  #wantLight(question: LightQuestion, viewMoving: boolean, lightsMoving: boolean): void {
-    const last = this.#lights.wanted;
-    if (question.lights.length === 0) {
-      if (last) this.onLight(null);
-      this.#lights.clear();
-      this.#litBy = undefined;
-      return;
-    }
-    // The light of a point does not depend on whether the point is seen. So while the view moves, the last mesh is
-    // used.
-    const asked = viewMoving && last ? { ...question, mesh: last.mesh } : question;
-    this.#lights.want(lightsMoving ? quickLight(asked) : asked);
-    this.#lightFollower.follow();
-  }
-
   #viewRound(): Round | undefined {
     const { due } = this.#refinement;
     if (!due) return undefined;
@@ -303,10 +233,7 @@ export class Inquiry {
       const view = await this.#ask(stage);
       this.onView(view);
       this.#viewFollower.answered();
-      if (isSameView(view.question, this.#wanted!, this.#size)) {
-        this.#prepareMaps(view.question);
-        await this.findAutomatic();
-      }
+      if (isSameView(view.question, this.#wanted!, this.#size)) this.#prepareMaps(view.question);
       return view;
     });
   }
@@ -353,33 +280,6 @@ export class Inquiry {
     };
   }
 
-  #lightRound(): Round<LightAnswer> {
-    const question = this.#lights.take();
-    // Only a question in the second worker is given up. Any other answer is shown even if the lights have moved on.
-    const aside = isSearched(question.method);
-    const overtaken = aside ? this.#lights.signal : undefined;
-    return {
-      ask: async () => {
-        const cloud = aside ? await this.#second.ready(overtaken) : this.cloud;
-        const answer = await askLight(cloud, question, overtaken);
-        this.#noteFree(cloud);
-        return answer;
-      },
-      use: (answer) => {
-        if (this.#lights.wanted) {
-          this.onLight(answer);
-          this.#litBy = question;
-        }
-        return undefined;
-      },
-      isGivenUp: (error) => {
-        if (!isGivenUp(error)) return false;
-        this.#lights.forget();
-        return true;
-      },
-    };
-  }
-
   /** Whether a question is for the second worker. */
   #isAside(method: Method): boolean {
     return isSearched(method) || (method.looks > 0 && this.cloud.points.length >= LOOKS_ASIDE_FROM);
@@ -396,7 +296,6 @@ export class Inquiry {
     const answer = await askView(cloud, question, signal);
     const begun = cloud === this.cloud ? Math.max(asked, this.#freeSince) : asked;
     this.#noteFree(cloud);
-    this.#mesh = answer.triangles;
     this.#answered = question;
     const wanted = this.#wanted!.method;
     const quick = isSearched(wanted) && !isSearched(question.method);
@@ -405,11 +304,6 @@ export class Inquiry {
     if (view.kind === "operator") this.#hull = view;
     return this.told(view);
   }
-}
-
-/** Whether a newer question has cancelled this one. Then this one can be asked again. */
-function isGivenUp(error: unknown): boolean {
-  return error instanceof DOMException && error.name === "AbortError";
 }
 
 /** Whether a worker has given no sign of life for too long. */

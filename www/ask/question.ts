@@ -6,10 +6,9 @@ import {
   type Radius,
   type Settings,
   type Viewpoint,
-  type Viewpoints,
 } from "../settings/settings.ts";
 
-/** How the library decides which points a viewpoint or a light sees. */
+/** How the library decides which points a viewpoint sees. */
 export interface Method {
   /** Only for the spherical flip; `null` for the others, and with looks. */
   radius: Radius | null;
@@ -18,49 +17,30 @@ export interface Method {
   looks: Looks;
   /** Only with looks. Undefined: it follows from the noise of the cloud. */
   thickness?: number | undefined;
-  denoise: number;
-  vote: number;
 }
 
-/** Surfaces have only one viewpoint. */
-export type Shape = { kind: "points"; viewpoints: Viewpoints } | { kind: "surface"; edge: number };
-
-/** The question of what can be seen, and how it is shown. */
+/** The question of what can be seen. */
 export interface ViewQuestion {
   viewpoint: Viewpoint;
   method: Method;
-  shape: Shape;
   /** Asks for an early answer, which also has some hidden points. */
   draft?: boolean;
   /** Asks for a map of directions, by which the graphics card leaves out hidden points. */
   map?: boolean;
 }
 
-/** The question of what the lights reach. */
-export interface LightQuestion {
-  lights: readonly Viewpoint[];
-  soft: number;
-  ambient: number;
-  smoothing: number;
-  method: Method;
-  /** The triangles over which the light is interpolated. */
-  mesh: Uint32Array | null;
-}
-
 /** The operator of the paper with these settings. */
-export function operatorOf({ radius, inversion, denoise, vote }: Settings): Method {
-  return { radius: inversion === "spherical" ? radius : null, inversion, looks: 0, denoise, vote };
+export function operatorOf({ radius, inversion }: Settings): Method {
+  return { radius: inversion === "spherical" ? radius : null, inversion, looks: 0 };
 }
 
 /** The question whose answer is final. */
 export function viewOf(viewpoint: Viewpoint, settings: Settings): ViewQuestion {
-  const { show, viewpoints, edge, looks, thickness } = settings;
+  const { looks, thickness } = settings;
   const method = operatorOf(settings);
-  if (show === "surface") return { viewpoint, method, shape: { kind: "surface", edge } };
-  const shape: Shape = { kind: "points", viewpoints };
   return looks > 0 && canLook(settings)
-    ? { viewpoint, method: { ...method, radius: null, looks, ...(thickness !== "auto" && { thickness }) }, shape }
-    : { viewpoint, method, shape };
+    ? { viewpoint, method: { ...method, radius: null, looks, ...(thickness !== "auto" && { thickness }) } }
+    : { viewpoint, method };
 }
 
 export function kindOf({ draft, map, method }: ViewQuestion): AnswerKind {
@@ -74,12 +54,12 @@ export function kindOf({ draft, map, method }: ViewQuestion): AnswerKind {
  *
  *     draft ─► one hull ─► looks, or a radius that is searched
  *
- * The last of the three is missing if one hull is the final answer. A surface has no draft. `drafts`: whether the cloud
- * is so large that a draft is worth its time.
+ * The last of the three is missing if one hull is the final answer. `drafts`: whether the cloud is so large that a draft
+ * is worth its time.
  */
 export function stagesOf(final: ViewQuestion, drafts: boolean): ViewQuestion[] {
   const operator = isSlow(final.method) ? { ...final, method: quickMethod(final.method) } : final;
-  const first = drafts && final.shape.kind === "points" ? [{ ...operator, draft: true }] : [];
+  const first = drafts ? [{ ...operator, draft: true }] : [];
   return [...first, operator, ...(operator === final ? [] : [final])];
 }
 
@@ -88,20 +68,13 @@ export function stagesOf(final: ViewQuestion, drafts: boolean): ViewQuestion[] {
  * the final answer hides.
  */
 export function mappedStagesOf(final: ViewQuestion): ViewQuestion[] | null {
-  const { method, shape } = final;
-  const isOne = shape.kind === "points" && shape.viewpoints === "one";
-  const hasMap = isOne && method.vote === 0 && method.denoise === 0 && !isSearched(method);
-  return hasMap ? [{ ...final, map: true }, final] : null;
+  return isSearched(final.method) ? null : [{ ...final, map: true }, final];
 }
 
 /*
- * The rules that search take 6 and about 40 hulls, looks take three. While the viewpoint or the lights move, the
- * automatic radius replaces them, and single points replace soft lights.
+ * The rules that search take 6 and about 40 hulls, looks take three. While the viewpoint moves, the automatic radius
+ * replaces them.
  */
-
-export function quickLight(question: LightQuestion): LightQuestion {
-  return { ...question, soft: 0, method: quickMethod(question.method) };
-}
 
 function quickMethod(method: Method): Method {
   return isSlow(method) ? { ...method, radius: { rule: "auto" }, looks: 0, thickness: undefined } : method;
@@ -137,15 +110,6 @@ export function isSameView(a: ViewQuestion, b: ViewQuestion, size: number): bool
     isSamePlace(a.viewpoint, b.viewpoint, size) &&
     a.draft === b.draft &&
     a.map === b.map &&
-    textOf([a.method, a.shape]) === textOf([b.method, b.shape])
+    JSON.stringify(a.method) === JSON.stringify(b.method)
   );
-}
-
-export function isSameLight({ mesh: a, ...rest }: LightQuestion, { mesh: b, ...others }: LightQuestion): boolean {
-  return a === b && textOf(rest) === textOf(others);
-}
-
-/** JSON writes infinity as null. That is safe, because no other number here becomes null. */
-function textOf(value: unknown): string {
-  return JSON.stringify(value);
 }

@@ -1,10 +1,4 @@
-import {
-  HprError,
-  init,
-  ringOfViewpoints,
-  type Inversion as LibraryInversion,
-  type VisibilityOptions,
-} from "hidden-point-removal";
+import type { Inversion as LibraryInversion, VisibilityOptions } from "hidden-point-removal";
 import type { WorkerPointCloud } from "hidden-point-removal/worker";
 import { MOST_POWER } from "../settings/limits.ts";
 import type { Viewpoint } from "../settings/settings.ts";
@@ -21,19 +15,7 @@ export class WorkerCloud {
     this.center = center;
   }
 
-  async options(
-    { radius, inversion, looks, thickness, denoise, vote }: Method,
-    viewpoint: Viewpoint,
-  ): Promise<VisibilityOptions> {
-    const nearest = Math.max(denoise, vote);
-    // This check is here because the library's message would be unclear: it gives the range of the number, which is
-    // empty for one point.
-    if (nearest > 0 && nearest >= this.points.length) {
-      throw new HprError(
-        "option",
-        `noise handling needs the ${nearest} nearest neighbors of each point, and there are too few points`,
-      );
-    }
+  async options({ radius, inversion, looks, thickness }: Method, viewpoint: Viewpoint): Promise<VisibilityOptions> {
     return {
       ...(radius === null
         ? {}
@@ -44,15 +26,7 @@ export class WorkerCloud {
             : radius),
       ...(inversion === "spherical" ? {} : { inversion: await this.#inversion(inversion, viewpoint) }),
       ...(looks === 0 ? {} : { looks, thickness }),
-      ...(denoise > 0 ? { denoise } : {}),
-      ...(vote > 0 ? { vote } : {}),
     };
-  }
-
-  /** Viewpoints around a viewpoint that looks at the middle of the cloud. */
-  async ring(viewpoint: Viewpoint, count: number, fraction: number): Promise<number[][]> {
-    await init();
-    return ringOfViewpoints(viewpoint, this.center, { count, fraction });
   }
 
   async #inversion(

@@ -36,8 +36,6 @@ export const KEYS = {
   middle: { keys: ["Enter"], shown: ["Enter"], does: "picks the point in the middle" },
   cancel: { keys: ["Escape"], shown: ["Esc"] },
   sheet: { keys: ["?"], said: "the question mark", does: "shows all keys" },
-  /** These keys work while a light has the focus. */
-  light: { keys: [...ARROWS, "+", "=", "-"], shown: ["arrow keys", "+", "−"] },
   /** These keys work while the divider has the focus. */
   divide: {
     keys: ["ArrowLeft", "ArrowRight", "ArrowDown", "ArrowUp", "PageDown", "PageUp", "Home", "End"],
@@ -62,7 +60,6 @@ export const SHEET: readonly (readonly [title: string, how: string])[] = [
   ["Compare", "{compare} · drag the line · {divide} on it"],
   ["Stations", "{stations} · click, or {middle} for the middle of the picture"],
   ["Export", "{export}"],
-  ["A light", "drag it · {light} on it"],
   ["Give up, close", "{cancel}"],
   ["This sheet", "{sheet}"],
 ];

@@ -27,13 +27,6 @@ export class Slider {
     this.#show(value);
   }
 
-  /** Marks a value under the track. The slider must have the class `marked`. */
-  mark(value: number): void {
-    const { min, max } = this.#input;
-    const share = (value - Number(min)) / (Number(max) - Number(min));
-    this.#input.parentElement!.style.setProperty("--mark", String(Math.min(1, Math.max(0, share))));
-  }
-
   /** Shows no value, because none is known yet. */
   clear(): void {
     this.#output.textContent = "";

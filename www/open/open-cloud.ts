@@ -97,7 +97,6 @@ export async function openCloud(
   const own: Partial<Settings> = {
     ...usual,
     freeze: null,
-    lights: [],
     thickness: "auto",
     ...radiusFor(place.settings()),
     ...wished,

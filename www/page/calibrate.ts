@@ -31,7 +31,7 @@ export async function calibrate({ opened, stations }: Ready, { viewer, store, me
   } satisfies Partial<Settings>;
   const [{ viewpoint }] = measured as [(typeof measured)[number]];
   try {
-    const { method } = viewOf(viewpoint, { ...before, ...looking, show: "points", thickness: "auto" });
+    const { method } = viewOf(viewpoint, { ...before, ...looking, thickness: "auto" });
     const { thickness, recall } = await inquiry.cloud.points.calibrate(
       measured,
       await inquiry.cloud.options(method, viewpoint),

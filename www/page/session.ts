@@ -1,5 +1,4 @@
 import { byId } from "../controls/dom.ts";
-import { LightHandles } from "../lights/handles.ts";
 import { forgetAhead } from "../loaders/index.ts";
 import { onFile } from "../panel/files.ts";
 import { Message } from "../panel/message.ts";
@@ -37,7 +36,7 @@ export function startSession(wishes: Wishes, first: Source): void {
   }
   const settings = { ...USUAL_SETTINGS, ...wishes.settings };
   // Places in space belong to a cloud, and are set with the cloud.
-  const store = new Store({ ...settings, freeze: null, lights: [] });
+  const store = new Store({ ...settings, freeze: null });
   const viewer = new Viewer(byId("view", HTMLCanvasElement), store, wishes.embed, coveredHeight);
   new ResizeObserver(() => {
     viewer.stage.refit();
@@ -45,7 +44,6 @@ export function startSession(wishes: Wishes, first: Source): void {
   const turning = new Turning(viewer);
   const introduction = new Introduction(viewer, store, turning, wishes.isFirst);
   const panel = new Panel(viewer, store, settings, turning);
-  const handles = new LightHandles(byId("lights"), viewer, store);
   const notices = new Notices(status, message);
   const address: Address = new Address(store, {
     camera: () => cameraPlace(viewer, opening.askedView),
@@ -63,7 +61,7 @@ export function startSession(wishes: Wishes, first: Source): void {
   const parts = { viewer, store, panel, address, workshop, status, message, notices };
   const opening: Opening = new Opening(parts, wishes.embed ? null : sampleNamed(wishes.sample));
   const storytelling: Storytelling = new Storytelling({ viewer, store, address, workshop, opening });
-  wire({ ...parts, turning, handles, signs: new Signs(store) });
+  wire({ ...parts, turning, signs: new Signs(store) });
 
   onFile({
     open: (files, notes) => void opening.open(fromFiles(files, notes, limitsOf(wishes))),

@@ -59,7 +59,7 @@ export class Status {
 
   /** Sets all attributes from this one answer. */
   answer(answer: TimedView, total: number, frozen: boolean): void {
-    const { question, kind, visibility, triangles, asked, milliseconds } = answer;
+    const { question, kind, visibility, asked, milliseconds } = answer;
     this.#refilters++;
     Object.assign(this.#element.dataset, {
       answer: kind,
@@ -70,12 +70,9 @@ export class Status {
       exponent: String(visibility.exponent),
       evaluations: String(visibility.evaluations),
       inversion: inversionText(visibility.inversion),
-      show: question.shape.kind,
       milliseconds: String(milliseconds),
       refilters: String(this.#refilters),
     });
-    if (triangles) this.#element.dataset["triangles"] = String(triangles.length / 3);
-    else delete this.#element.dataset["triangles"];
     // Looks only improve the answer to a view. After an error, a new question begins with another answer.
     const isError = this.#element.dataset["state"] === "error";
     if (asked < this.#since || (isError && kind === "looks")) return;
@@ -93,12 +90,6 @@ export class Status {
       milliseconds: String(milliseconds),
       refilters: String(this.#refilters),
     });
-  }
-
-  /** Sets the number of lights. */
-  lit(lights: number): void {
-    if (lights > 0) this.#element.dataset["lights"] = String(lights);
-    else delete this.#element.dataset["lights"];
   }
 
   /** Says the last answer again, since the viewpoint may have been frozen or not. */

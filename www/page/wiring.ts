@@ -1,4 +1,3 @@
-import type { LightHandles } from "../lights/handles.ts";
 import type { Message } from "../panel/message.ts";
 import type { Panel } from "../panel/panel.ts";
 import type { Signs } from "../panel/signs.ts";
@@ -17,7 +16,6 @@ interface Parts {
   signs: Signs;
   address: Address;
   workshop: Workshop;
-  handles: LightHandles;
   status: Status;
   message: Message;
   notices: Notices;
@@ -32,14 +30,12 @@ export function wire({
   signs,
   address,
   workshop,
-  handles,
   status,
   message,
   notices,
   turning,
 }: Parts): void {
   viewer.onFrame = () => {
-    handles.place();
     workshop.place();
   };
   viewer.onDetail = () => {
@@ -71,13 +67,6 @@ export function wire({
   };
   viewer.onMap = (mapped) => {
     status.map(mapped);
-  };
-  viewer.onLight = (light) => {
-    status.lit(light?.question.lights.length ?? 0);
-    if (light?.note) notices.tell(light.note);
-  };
-  viewer.onAutomatic = (exponent) => {
-    panel.markAutomatic(exponent);
   };
   viewer.onBusy = (busy, byMap) => {
     status.busy(busy);

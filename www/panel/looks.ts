@@ -13,10 +13,8 @@ export function explainLooks(store: Store): void {
   const group = byId("looks", HTMLFieldSetElement);
   const note = byId("looks-note");
   store.follow((now) => {
-    const possible = canLook(now) && now.show === "points";
+    const possible = canLook(now);
     group.disabled = !possible;
-    note.textContent = possible
-      ? NOTES[now.looks]
-      : "Looks need the automatic radius, the spherical method, and points instead of a surface.";
+    note.textContent = possible ? NOTES[now.looks] : "Looks need the automatic radius and the spherical inversion.";
   });
 }

@@ -6,10 +6,6 @@ import { remember, remembered } from "../controls/memory.ts";
 const SECTIONS: Record<string, (keyof Settings)[]> = {
   "look-section": ["color", "size", "fieldOfView", "up"],
   "advanced-section": ["looks", "radius"],
-  "flip-section": ["inversion", "viewpoints"],
-  "noise-section": ["denoise", "vote"],
-  "surface-section": ["show", "edge"],
-  "shadow-section": ["lights", "soft", "ambient", "smoothing"],
 };
 
 /**
@@ -25,13 +21,6 @@ export function bindSections(settings: Settings): void {
     });
   }
   for (const [id, names] of Object.entries(SECTIONS)) {
-    if (names.some((name) => settings[name] !== USUAL_SETTINGS[name])) unfold(byId(id));
-  }
-}
-
-/** Opens a section and the section around it. */
-function unfold(section: HTMLElement): void {
-  for (let at: Element | null = section; at; at = at.parentElement) {
-    if (at instanceof HTMLDetailsElement) at.open = true;
+    if (names.some((name) => settings[name] !== USUAL_SETTINGS[name])) byId(id, HTMLDetailsElement).open = true;
   }
 }

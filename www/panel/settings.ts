@@ -1,13 +1,13 @@
 import { Segmented } from "../controls/segmented.ts";
 import { Slider } from "../controls/slider.ts";
 import { rowOf, type Settings } from "../settings/settings.ts";
-import { type Slider as SliderRow, SLIDERS } from "../settings/sliders.ts";
+import { SLIDERS } from "../settings/sliders.ts";
 import type { Store } from "../settings/store.ts";
 import type { SettingName } from "../settings/table.ts";
 
 /** Settings whose only control is one row of buttons or one slider. The other controls have files of their own. */
-const CHOICES = ["hidden", "looks", "viewpoints", "denoise", "vote", "show", "up", "theme"] as const;
-const SLIDING = ["edge", "soft", "ambient", "smoothing", "size", "fieldOfView"] as const;
+const CHOICES = ["hidden", "looks", "up", "theme"] as const;
+const SLIDING = ["size", "fieldOfView"] as const;
 
 /** Settings that change together with another one. With another direction up, a frozen view has no meaning. */
 const TOGETHER: Partial<Record<SettingName, Partial<Settings>>> = { up: { freeze: null } };
@@ -30,12 +30,11 @@ function bindChoice(store: Store, name: (typeof CHOICES)[number]): void {
 }
 
 function bindSlider(store: Store, name: (typeof SLIDING)[number]): void {
-  const { text, at, from }: SliderRow = SLIDERS[name];
-  const slider = new Slider(idOf(name), text, (place) => {
-    store.change({ [name]: from ? from(place) : place });
+  const slider = new Slider(idOf(name), SLIDERS[name].text, (value) => {
+    store.change({ [name]: value });
   });
   store.follow((now) => {
-    slider.value = at ? at(now[name]) : now[name];
+    slider.value = now[name];
   });
 }
 

@@ -142,7 +142,6 @@ function settingsInAddress(now: Settings, usual: Usual): Record<string, string[]
     texts[row.parameter] = text === row.write(usually) ? [] : [text];
   };
   for (const name of Object.keys(SETTINGS)) write(name as SettingName);
-  texts[SETTINGS.lights.parameter] = now.lights.map(String);
   if ("exponent" in radius) texts[SETTINGS.radius.parameter] = [];
   if (now.color === STATION_COLORS) texts[SETTINGS.color.parameter] = [];
   if (!canLook(now)) texts[SETTINGS.looks.parameter] = [];

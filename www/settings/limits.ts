@@ -12,14 +12,6 @@ export const MOST_EXPONENT = 6;
 /** The library's limit of γ. */
 export const MOST_POWER = 16;
 
-/** The library's limit is the number of points. The page's is lower: with 100 neighbors a large sample takes minutes. */
-export const MOST_NEIGHBORS = 100;
-
-export const MOST_LIGHTS = 8;
-
-/** The most rounds that smooth the light. */
-export const MOST_ROUNDS = 1000;
-
 /** Where the line that divides the picture first stands, as a share of its width. */
 export const MIDDLE = 0.5;
 

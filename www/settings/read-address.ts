@@ -1,5 +1,3 @@
-import { PLACE } from "./kinds.ts";
-import { MOST_LIGHTS } from "./limits.ts";
 import { canLook, rowOf, type Settings, USUAL_SETTINGS, type Viewpoint, withLooks } from "./settings.ts";
 import { type Parameter, PARAMETERS, refusalOf, type SettingName, SETTINGS, STORIES, type StoryName } from "./table.ts";
 
@@ -56,7 +54,7 @@ export function readAddress(search: string, samples: readonly string[]): Wishes 
   const found: Partial<Record<SettingName, unknown>> = {};
   for (const name of Object.keys(SETTINGS) as SettingName[]) {
     const row = rowOf(name);
-    const value = name === "lights" ? undefined : read(row.parameter, row);
+    const value = read(row.parameter, row);
     if (value !== undefined) found[name] = value;
   }
   let settings = found as Partial<Settings>;
@@ -73,7 +71,6 @@ export function readAddress(search: string, samples: readonly string[]): Wishes 
   const turn = read("turn", PARAMETERS.turn);
   const story = read("story", PARAMETERS.story) ?? null;
   const isFirst = [...query.keys()].every((name) => name === "turn");
-  if (query.has("light")) settings.lights = readLights(query.getAll("light"), notes);
 
   return {
     sample: story ? STORIES[story] : sample,
@@ -89,16 +86,4 @@ export function readAddress(search: string, samples: readonly string[]): Wishes 
     settings,
     notes,
   };
-}
-
-/** The address has the parameter once for each light. */
-function readLights(texts: readonly string[], notes: string[]): Viewpoint[] {
-  const places = texts.map(PLACE.parse);
-  const lights = places.filter((place) => place !== undefined).slice(0, MOST_LIGHTS);
-  if (lights.length < places.length) {
-    notes.push(
-      `A light in the address is not three numbers x,y,z, or is one more than ${MOST_LIGHTS}; it is left out.`,
-    );
-  }
-  return lights;
 }

@@ -1,7 +1,7 @@
 import { type Setting, type SettingName, SETTINGS } from "./table.ts";
 
 export type * from "./types.ts";
-export { OWN_COLORS, USUAL_EDGE } from "./table.ts";
+export { OWN_COLORS } from "./table.ts";
 
 /** Everything that can be set on the page. The panel and the address change it. Questions and the picture use it. */
 export type Settings = {

@@ -12,17 +12,8 @@ import {
   RADIUS,
   wholeBetween,
 } from "./kinds.ts";
-import {
-  FIELD_OF_VIEW,
-  MAX_POINTS,
-  MOST_EXPONENT,
-  MOST_LIGHTS,
-  MOST_NEIGHBORS,
-  MOST_ROUNDS,
-  POINT_SIZE,
-  SMALL,
-} from "./limits.ts";
-import type { HiddenMode, Inversion, Looks, Radius, ThemeChoice, Viewpoint, Viewpoints } from "./types.ts";
+import { FIELD_OF_VIEW, MAX_POINTS, MOST_EXPONENT, POINT_SIZE, SMALL } from "./limits.ts";
+import type { HiddenMode, Inversion, Looks, Radius, ThemeChoice, Viewpoint } from "./types.ts";
 
 /*
  * The one table of settings. The address, the panel, the element's attributes and, with words.ts, the tables in the
@@ -66,9 +57,6 @@ export const STATION_COLORS = "seen by stations";
 /** The modes in the order of the panel. The key goes through them in the same order. */
 export const HIDDEN_MODES: readonly HiddenMode[] = ["off", "dimmed", "shown"];
 
-/** The library's own default, in spacings. */
-export const USUAL_EDGE = 5;
-
 export const SETTINGS = {
   radius: setting<Radius>({
     parameter: "radius",
@@ -96,73 +84,6 @@ export const SETTINGS = {
     ...INVERSION,
     usual: "spherical",
     otherwise: "it is spherical",
-  }),
-  viewpoints: setting<Viewpoints>({
-    parameter: "viewpoints",
-    ...oneOf<Viewpoints>("one", "any", "two"),
-    usual: "one",
-    called: "number of viewpoints",
-    otherwise: "it is one",
-  }),
-  denoise: setting<number>({
-    parameter: "denoise",
-    ...wholeBetween(0, MOST_NEIGHBORS),
-    usual: 0,
-    otherwise: "noise is left as it is",
-  }),
-  vote: setting<number>({
-    parameter: "vote",
-    ...wholeBetween(0, MOST_NEIGHBORS),
-    usual: 0,
-    otherwise: "there is no vote",
-  }),
-  show: setting<"points" | "surface">({
-    parameter: "show",
-    ...oneOf<"points" | "surface">("points", "surface"),
-    usual: "points",
-    called: "kind of picture",
-    otherwise: "points are shown",
-  }),
-  edge: setting<number>({
-    parameter: "edge",
-    ...orWord(POSITIVE, "all", Infinity),
-    values: "a positive number of spacings or `all`",
-    usual: USUAL_EDGE,
-    called: "longest edge",
-    otherwise: `it is ${USUAL_EDGE}`,
-  }),
-  lights: setting<readonly Viewpoint[]>({
-    parameter: "light",
-    parse: (text) => {
-      const place = PLACE.parse(text);
-      return place && [place];
-    },
-    write: String,
-    values: `${PLACE.values}, once for each of at most ${MOST_LIGHTS} lights`,
-    usual: [],
-    otherwise: "it is left out",
-    ofCloud: true,
-  }),
-  soft: setting<number>({
-    parameter: "soft",
-    ...between(0, 1),
-    usual: 0,
-    called: "softness of the lights",
-    otherwise: "lights are points",
-  }),
-  ambient: setting<number>({
-    parameter: "ambient",
-    ...between(0, 1),
-    // With this value, shapes are visible even in places without light.
-    usual: 0.3,
-    called: "ambient light",
-    otherwise: "the usual one is used",
-  }),
-  smoothing: setting<number>({
-    parameter: "smoothing",
-    ...wholeBetween(0, MOST_ROUNDS),
-    usual: 1,
-    otherwise: "it is 1",
   }),
   freeze: setting<Viewpoint | null>({
     parameter: "freeze",

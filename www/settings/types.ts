@@ -18,6 +18,3 @@ export type Inversion = "spherical" | { exponential: number | "auto" } | { power
 
 /** The colors of the page: those that the system asks for, or always one theme. */
 export type ThemeChoice = "system" | "dark" | "light";
-
-/** One viewpoint, or five (it and a ring of four around it): a point is seen by any of the five, or by at least two. */
-export type Viewpoints = "one" | "any" | "two";

@@ -16,8 +16,6 @@ export interface Words {
 /** `labels`: the labels of the choices in the panel, by the text of each choice. */
 export type SettingWords = Words & { labels?: Readonly<Record<string, string>> };
 
-const NEIGHBORS = { 0: "Off", 6: "6", 16: "16", 32: "32" };
-
 export const SETTING_WORDS: Record<SettingName, SettingWords> = {
   radius: {
     is: "the radius of the sphere, by a rule or as a length",
@@ -32,42 +30,6 @@ export const SETTING_WORDS: Record<SettingName, SettingWords> = {
   },
   inversion: {
     is: "how points are flipped; c in spacings",
-    labels: { spherical: "Spherical", exponential: "Exponential", power: "Power" },
-  },
-  viewpoints: {
-    is: "who sees a point: one viewpoint, any of five, two of five",
-    labels: { one: "One place", any: "Any of 5", two: "At least 2" },
-  },
-  denoise: {
-    is: "neighbors that smooth a point’s noise",
-    without: "`0`",
-    labels: NEIGHBORS,
-  },
-  vote: {
-    is: "neighbors that vote on a point",
-    without: "`0`",
-    labels: NEIGHBORS,
-  },
-  show: {
-    is: "visible points, or the surface between them",
-    labels: { points: "Points", surface: "Surface" },
-  },
-  edge: {
-    is: "the surface’s longest edge",
-  },
-  lights: {
-    is: "a light, which casts shadows",
-    without: "none",
-  },
-  soft: {
-    is: "a light’s radius ÷ its distance",
-    without: "`0`",
-  },
-  ambient: {
-    is: "brightness without light",
-  },
-  smoothing: {
-    is: "rounds that smooth the light",
   },
   freeze: {
     is: "where the viewpoint stays",

@@ -5,16 +5,7 @@ import type { StreamMethod } from "./protocol.ts";
  * How a streamed octree is seen with these settings. `null`: they need all points at once. The automatic radius
  * and looks do, too. For them, the automatic exponential inversion is used.
  */
-export function streamMethodOf({
-  show,
-  viewpoints,
-  denoise,
-  vote,
-  lights,
-  radius,
-  inversion,
-}: Settings): StreamMethod | null {
-  if (show === "surface" || viewpoints !== "one" || denoise > 0 || vote > 0 || lights.length > 0) return null;
+export function streamMethodOf({ radius, inversion }: Settings): StreamMethod | null {
   if (inversion !== "spherical") {
     if ("exponential" in inversion) return inversion;
     return inversion.power === "auto" ? null : { power: inversion.power };

@@ -3,25 +3,20 @@ import { type Cloud, type Up, upVector } from "../cloud/cloud.ts";
 import { spreadOf } from "../cloud/spread.ts";
 import type { Theme } from "./theme.ts";
 
-/** The text before the `main` of a vertex shader: the color of a vertex, and its brightness under the lights. */
+/** The text before the `main` of a vertex shader: the color of a vertex. */
 export const TINT_SHADER = /* glsl */ `
   uniform vec3 up, low, high;
   uniform vec2 heights;
-  uniform bool lit, colored;
-  attribute float brightness;
+  uniform bool colored;
   attribute vec3 color;
 
   vec3 ownTint() {
     if (colored) return color;
     return mix(low, high, clamp((dot(position, up) - heights.x) / (heights.y - heights.x), 0.0, 1.0));
   }
-
-  float light() {
-    return lit ? brightness : 1.0;
-  }
 `;
 
-/** Places, colors and light, which the points and the surface of a cloud share on the graphics card. */
+/** Places and colors, which the draws of a cloud share on the graphics card. */
 export class CloudAttributes {
   /** Shared by all materials of the cloud. */
   readonly uniforms = {
@@ -30,7 +25,6 @@ export class CloudAttributes {
     // The colors are not converted, because the shading pass and the screen both take display colors.
     low: { value: new Color() },
     high: { value: new Color() },
-    lit: { value: false },
     colored: { value: false },
   };
   readonly #local: Float32Array;
@@ -39,7 +33,6 @@ export class CloudAttributes {
   readonly #position: BufferAttribute;
   readonly #ownColors: Uint8Array | null;
   #color: BufferAttribute | null = null;
-  #brightness: BufferAttribute | null = null;
 
   constructor({ local, colors, radius }: Cloud, theme: Theme) {
     this.#local = local;
@@ -59,7 +52,6 @@ export class CloudAttributes {
   addTo(geometry: BufferGeometry): void {
     geometry.setAttribute("position", this.#position);
     if (this.#color) geometry.setAttribute("color", this.#color);
-    if (this.#brightness) geometry.setAttribute("brightness", this.#brightness);
     // Otherwise three.js computes it from all points, once for each geometry.
     geometry.boundingSphere = this.#bounds;
     this.#geometries.push(geometry);
@@ -83,19 +75,6 @@ export class CloudAttributes {
     // This is a copy, because the file's own colors must not change.
     this.#color = new BufferAttribute(colors.slice(), 3, true).setUsage(DynamicDrawUsage);
     for (const geometry of this.#geometries) geometry.setAttribute("color", this.#color);
-  }
-
-  /** Takes one number from 0 to 1 for each point. `null`: there are no lights. */
-  setBrightness(brightness: Float32Array | null): void {
-    this.uniforms.lit.value = brightness !== null;
-    if (!brightness) return;
-    if (this.#brightness) {
-      (this.#brightness.array as Float32Array).set(brightness);
-      this.#brightness.needsUpdate = true;
-      return;
-    }
-    this.#brightness = new BufferAttribute(brightness, 1).setUsage(DynamicDrawUsage);
-    for (const geometry of this.#geometries) geometry.setAttribute("brightness", this.#brightness);
   }
 }
 

@@ -155,8 +155,6 @@ export class EyeDome {
    * points is shaded, too. The shade of small points would make the far side darker, and hide it.
    */
   touching = true;
-  /** Whether the picture is shaded. It is off if something else shows the shape. */
-  enabled = true;
   readonly #target = newTarget();
   /** The picture of all points, if it is needed. */
   #allTarget: WebGLRenderTarget | null = null;
@@ -235,7 +233,7 @@ export class EyeDome {
     this.#material.uniforms["reach"]!.value = REACH * renderer.getPixelRatio();
     this.#material.uniforms["gap"]!.value = this.touching ? Math.max(1, renderer.getPixelRatio()) : 0;
     this.#material.uniforms["shadesAll"]!.value = this.touching;
-    this.#material.uniforms["strength"]!.value = this.enabled ? (this.touching ? STRENGTH : SMALL_STRENGTH) : 0;
+    this.#material.uniforms["strength"]!.value = this.touching ? STRENGTH : SMALL_STRENGTH;
     // At this distance a point is as wide as SOFT_FROM pixels. Nearer points are wider in proportion.
     const pixels = (camera.projectionMatrix.elements[5] * this.#size.y) / 2;
     this.#material.uniforms["softness"]!.value = (this.pointWidth * pixels) / SOFT_FROM;

@@ -80,7 +80,7 @@ function isInReach(cloud: Cloud, view: Viewpoint): boolean {
 export function inReachOnly(
   cloud: Cloud,
   view: AskedView | null,
-  { freeze, lights }: Partial<Settings>,
+  { freeze }: Partial<Settings>,
   asked: string,
 ): { view: AskedView | null; places: Partial<Settings>; notes: string[] } {
   const notes: string[] = [];
@@ -108,11 +108,6 @@ export function inReachOnly(
     )
   ) {
     places.freeze = null;
-  }
-  if (lights) {
-    places.lights = lights.filter((light) =>
-      isNear(light, `A light ${asked} is too far away to be told from others, so it is left out.`),
-    );
   }
   return { view: near, places, notes };
 }

@@ -27,8 +27,7 @@ export const vertexShader = /* glsl */ `
     gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
     size = clamp(width * pixels / gl_Position.w, least, max(least, most));
     gl_PointSize = size;
-    // Hidden points have no light of their own.
-    tint = coverage > 0.0 ? mix(ownTint(), cover, coverage) : ownTint() * light();
+    tint = mix(ownTint(), cover, coverage);
   }
 `;
 

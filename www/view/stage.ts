@@ -94,12 +94,6 @@ export class Stage {
     this.invalidate();
   }
 
-  /** Whether points are shaded by how far their neighbors stand in front of them. */
-  setEyeDome(enabled: boolean): void {
-    this.#eyeDome.enabled = enabled;
-    this.invalidate();
-  }
-
   /** Whether the points of a surface touch. */
   setTouching(touching: boolean): void {
     this.#eyeDome.touching = touching;

@@ -15,8 +15,6 @@ export interface Theme {
    */
   onlyOurs: string;
   onlyReference: string;
-  /** The inside of a surface, seen from behind. */
-  inside: string;
   /** The marker of a frozen viewpoint. */
   accent: string;
 }
@@ -33,7 +31,6 @@ export const THEMES: Record<ThemeName, Theme> = {
     hiddenDimmed: "#4a515c",
     onlyOurs: "#ff8c1a",
     onlyReference: "#1fc8e0",
-    inside: "#59616b",
     accent: "#e7b562",
   },
   light: {
@@ -45,7 +42,6 @@ export const THEMES: Record<ThemeName, Theme> = {
     hiddenDimmed: "#b4bbc4",
     onlyOurs: "#c2570a",
     onlyReference: "#007f99",
-    inside: "#929aa4",
     accent: "#8a5a0b",
   },
 };

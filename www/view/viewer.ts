@@ -1,5 +1,4 @@
 import { Matrix4, Quaternion } from "three";
-import type { LightAnswer } from "../ask/lights.ts";
 import { isSamePlace } from "../ask/question.ts";
 import type { Detail, Inquiry, Mapped, TimedView } from "../ask/inquiry.ts";
 import type { Attribute, Cloud, Up } from "../cloud/cloud.ts";
@@ -14,7 +13,6 @@ import { ViewpointMarker } from "./marker.ts";
 import { Navigation } from "./navigation.ts";
 import { CloudPoints } from "./points.ts";
 import { Stage } from "./stage.ts";
-import { Surface } from "./surface.ts";
 import { type Theme, THEMES } from "./theme.ts";
 import { type Previewed, WaitingRoom } from "./waiting-room.ts";
 
@@ -35,7 +33,6 @@ export interface Opened {
 type Shown = Opened & {
   attributes: CloudAttributes;
   points: CloudPoints;
-  mesh: Surface;
   /** The viewpoint whose points are drawn: that of the answer, or that of a map. */
   from: Viewpoint;
   /** The viewpoint of the frame before. */
@@ -52,8 +49,6 @@ export class Viewer {
   readonly navigation: Navigation;
   onAnswer: (answer: TimedView, total: number) => void = () => undefined;
   onMap: (mapped: Mapped) => void = () => undefined;
-  onLight: (answer: LightAnswer | null) => void = () => undefined;
-  onAutomatic: (exponent: number) => void = () => undefined;
   onError: (error: unknown) => void = () => undefined;
   /**
    * Whether an answer for the present camera and settings is still to come, and whether a map shows it meanwhile. Called
@@ -76,8 +71,6 @@ export class Viewer {
   #overview: Shown | null = null;
   readonly #waiting: WaitingRoom<Shown>;
   #theme = THEMES.dark;
-  #lit = false;
-  #surfaceShown = false;
   /** Whether the cloud has not been drawn yet. */
   #isNew = false;
   #isFinal = false;
@@ -192,7 +185,6 @@ export class Viewer {
     shown.inquiry.dispose();
     remove(shown);
     shown.points.dispose();
-    shown.mesh.dispose();
   }
 
   /** Ends the picture and its worker. The canvas cannot be used again. */
@@ -208,15 +200,11 @@ export class Viewer {
     const { inquiry, answer, home } = opened;
     const shown = (this.#shown = this.#made(opened));
     inquiry.onDetail = (detail) => this.#exchange(shown, detail);
-    this.#lit = false;
-    this.onLight(null);
     // In a preview the camera is there already, and the user may have moved it on.
     this.#enter(shown, () => {
       if (!this.#waiting.hasShown(home)) this.navigation.setHome(home.pose);
     });
     inquiry.onView(answer);
-    // If the worker has failed, the next answer reports the error.
-    inquiry.findAutomatic().catch(() => undefined);
     this.#isNew = true;
     this.#inquire();
   }
@@ -225,9 +213,8 @@ export class Viewer {
     const { cloud, inquiry } = opened;
     const attributes = new CloudAttributes(cloud, this.#theme);
     const points = new CloudPoints(cloud, attributes, this.#theme);
-    const mesh = new Surface(attributes, this.#theme);
     const from = opened.answer.question.viewpoint;
-    const shown: Shown = { ...opened, attributes, points, mesh, from, before: from, byMap: false, frozen: null };
+    const shown: Shown = { ...opened, attributes, points, from, before: from, byMap: false, frozen: null };
     inquiry.onView = (next) => {
       // Its answer may come while other points are shown instead.
       if (this.#shown !== shown) return;
@@ -242,16 +229,6 @@ export class Viewer {
       this.stage.invalidate();
       this.onMap(mapped);
     };
-    inquiry.onLight = (light) => {
-      if (this.#shown !== shown) return;
-      attributes.setBrightness(light?.brightness ?? null);
-      this.#lit = light !== null;
-      this.#setShading();
-      this.onLight(light);
-    };
-    inquiry.onAutomatic = (exponent) => {
-      this.onAutomatic(exponent);
-    };
     inquiry.onError = (error) => {
       this.onError(error);
     };
@@ -259,8 +236,8 @@ export class Viewer {
   }
 
   /** Brings a cloud into the picture. `place` may move the camera. */
-  #enter({ points, mesh }: Shown, place: () => void): void {
-    this.stage.points.add(points.solid, points.ghost, mesh.mesh);
+  #enter({ points }: Shown, place: () => void): void {
+    this.stage.points.add(points.solid, points.ghost);
     this.stage.all.add(points.all);
     place();
     this.#applyLook(this.#store.current);
@@ -281,7 +258,7 @@ export class Viewer {
     this.#overview = detail && overview;
     this.#shown = detail ? this.#made({ ...overview, ...detail }) : overview;
     // The theme may have changed meanwhile.
-    for (const part of [overview.attributes, overview.points, overview.mesh]) part.setTheme(this.#theme);
+    for (const part of [overview.attributes, overview.points]) part.setTheme(this.#theme);
     this.#enter(this.#shown, () => undefined);
     this.onDetail();
     this.#shown.inquiry.onView(this.#shown.answer);
@@ -309,8 +286,7 @@ export class Viewer {
     this.stage.setTheme(theme);
     this.#marker.setTheme(theme);
     if (!this.#shown) return;
-    const { attributes, points, mesh } = this.#shown;
-    for (const part of [attributes, points, mesh]) part.setTheme(theme);
+    for (const part of [this.#shown.attributes, this.#shown.points]) part.setTheme(theme);
     this.#paint(this.#store.current);
   }
 
@@ -350,9 +326,9 @@ export class Viewer {
     if (!this.#isNew) this.#shown.inquiry.follow(viewpoint, settings);
     const { inquiry, cloud, from, before } = this.#shown;
     this.#shown.before = viewpoint;
-    // From another place, the visible points leave a gap like a shadow. A surface closes the picture itself.
+    // From another place, the visible points leave a gap like a shadow.
     const isHere = isSamePlace(from, viewpoint, cloud.radius) || isStandIn(cloud, from, before);
-    this.stage.setAll({ opacity: this.#surfaceShown || isHere ? 0 : 1 });
+    this.stage.setAll({ opacity: isHere ? 0 : 1 });
     this.#isFinal = !inquiry.busy;
     this.onBusy(!this.#isFinal, this.#shown.byMap);
   }
@@ -363,29 +339,12 @@ export class Viewer {
   }
 
   #showAnswer(answer: TimedView): void {
-    const { visibility, triangles, question } = answer;
-    const { points, mesh } = this.#shown!;
+    const { visibility, question } = answer;
     this.#shown!.answer = answer;
     this.#shown!.from = question.viewpoint;
     this.#shown!.byMap = false;
-    points.setVisible(visibility.indices);
+    this.#shown!.points.setVisible(visibility.indices);
     this.stage.invalidate();
-    mesh.setTriangles(triangles);
-    this.#setShape();
-  }
-
-  /** Shows the surface instead of the points. */
-  #setShape(): void {
-    const { points, mesh, answer } = this.#shown!;
-    this.#surfaceShown = answer.triangles !== null;
-    mesh.mesh.visible = this.#surfaceShown;
-    points.solid.visible = !this.#surfaceShown;
-    this.#setShading();
-  }
-
-  /** Points have no normals, so they are shaded by their depths. A surface, and points under lights, are not. */
-  #setShading(): void {
-    this.stage.setEyeDome(!this.#surfaceShown && !this.#lit);
   }
 
   #paint({ color, up }: Settings): void {
@@ -434,8 +393,8 @@ export class Viewer {
 }
 
 /** Takes a cloud out of the picture. */
-function remove({ points, mesh }: Shown): void {
-  for (const drawn of [points.solid, points.ghost, points.all, mesh.mesh]) drawn.removeFromParent();
+function remove({ points }: Shown): void {
+  for (const drawn of [points.solid, points.ghost, points.all]) drawn.removeFromParent();
 }
 
 /** The cosine of the angle, seen from the middle of the cloud, up to which one place may stand in for another. */
