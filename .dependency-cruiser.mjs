@@ -43,7 +43,6 @@ const PAGE = [
   ["stream", "stream/"],
   ["view", "view/"],
   ["open", "open/"],
-  ["lights", "lights/"],
   ["compare", "compare/"],
   ["how", "how/"],
   ["panel", "panel/"],

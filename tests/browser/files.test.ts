@@ -4,7 +4,7 @@ import { choose, dropped, openInTurn, stillAnswers } from "./files.js";
 import { pcdCases } from "../files/corpus-pcd.js";
 import { plyCases } from "../files/corpus-ply.js";
 import { tableCases } from "../files/corpus-tables.js";
-import { answered, answerInNode, openReady, reached, status, unfold } from "./support.js";
+import { answered, answerInNode, openReady, reached, status, unfold, upToDate } from "./support.js";
 
 const COUNT = 600;
 const near = ball(COUNT);
@@ -241,4 +241,38 @@ test("points without a position can be left out", async () => {
   await page.getByRole("button", { name: "Load without them" }).click();
   const now = await answered(page, before);
   expect(now).toMatchObject({ state: "ready", total: COUNT, ...(await answerInNode(near, now)) });
+});
+
+test("one bad line of many: the rest is loaded without it, and a note quotes it", async () => {
+  const page = await openReady("?sample=bunny");
+  const lines = rows(ball(600)).map((row) => row.join(" "));
+  await choose(page, "scan.xyz", text(`${lines.toSpliced(300, 0, "1 2 oops").join("\n")}\n`));
+  await reached(page, "error");
+  const message = page.locator("#message");
+  expect(await message.locator("p").textContent()).toMatch(/^scan\.xyz cannot be read: line 301 is not a point/);
+  await message.getByRole("button", { name: "Load without it" }).click();
+  await page.locator('#status[data-total="600"]').waitFor();
+  expect(await message.locator("p").textContent()).toMatch(/^One line is left out: line 301 is not a point.*oops/);
+});
+
+test("the columns of a table that numbers its points can be chosen on its note", async () => {
+  const page = await openReady("?sample=bunny");
+  const lines = rows(ball(600)).map((row, i) => [i + 1, ...row].join(" "));
+  await choose(page, "numbered.xyz", text(`${lines.join("\n")}\n`));
+  await page.locator('#status[data-total="600"]').waitFor();
+  const message = page.locator("#message");
+  expect(await message.locator("p").textContent()).toContain("x, y and z are columns 2, 3, 4");
+  await message.getByRole("button", { name: "Choose columns" }).click();
+  const columns = page.locator("#columns input");
+  expect(await columns.evaluateAll((all) => all.map((input) => (input as HTMLInputElement).value))).toEqual([
+    "2",
+    "3",
+    "4",
+  ]);
+  const before = await status(page);
+  await page.getByLabel("Column of z").fill("1");
+  await page.getByRole("button", { name: "Open with these" }).click();
+  await answered(page, before);
+  expect(await message.locator("p").textContent()).toContain("x, y and z are columns 2, 3, 1");
+  expect((await upToDate(page)).viewpoint).not.toEqual(before.viewpoint);
 });

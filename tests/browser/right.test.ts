@@ -1,4 +1,6 @@
 import { createRequire } from "node:module";
+import { join } from "node:path";
+import { readCloud } from "hidden-point-removal/files";
 import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
 import { oracleFor } from "../../www/compare/oracles.js";
@@ -190,6 +192,37 @@ test("How right is it? has the errors of one hull and of looks against rays, als
     errorsOf(cloud.visibleFrom(own.viewpoint, { looks: 3 }).mask(), new RayTracer(bunny).visibleFrom(own.viewpoint)),
   );
   expect((await judged(page))[2]![0]).toBe(Number(falsePositives.toFixed(2)));
+});
+
+test("a scan's own points judge from their stations, where no surface is known", async () => {
+  const page = await openReady("?sample=bunny");
+  const fixture = join(import.meta.dirname, "fixtures/two-scans.e57");
+  await page.locator("#file").setInputFiles(fixture);
+  await page.locator('#status[data-total="44"]').waitFor();
+  await upToDate(page);
+  const { positions, stations } = await readCloud(fixture);
+  const kept = Array.from({ length: positions.length / 3 }, (_, i) => i).filter((i) =>
+    Number.isFinite(positions[3 * i]),
+  );
+  const finite = Float64Array.from(kept.flatMap((i) => [...positions.subarray(3 * i, 3 * i + 3)]));
+  const expected = await inNode(finite, (cloud) =>
+    [{}, { looks: 3 as const }].map((options) => {
+      let [missed, shown] = [0, 0];
+      for (const { viewpoint, indices } of stations!) {
+        const mask = cloud.visibleFrom(viewpoint, options).mask();
+        shown += mask.reduce((sum, one) => sum + one, 0);
+        for (const index of indices) missed += 1 - mask[kept.indexOf(index)]!;
+      }
+      return [missed / kept.length, shown / (stations!.length * kept.length)].map((share) =>
+        Number((100 * share).toFixed(2)),
+      );
+    }),
+  );
+  const [buffered, ...others] = await judged(page);
+  expect(others).toEqual(expected);
+  // Its six pictures are around the stations, so few points are outside all of them.
+  expect(buffered![1]).toBeGreaterThan(20);
+  expect(await page.locator("#right").textContent()).toContain("2 stations of the scan see");
 });
 
 test("a cloud without a known surface says so", async () => {

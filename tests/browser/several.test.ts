@@ -29,6 +29,8 @@ test("coordinates of several files do not change by a bit, and each point knows 
     fields: [
       { name: "class", values: Uint8Array.of(2, 5), labels: { 2: "ground" } },
       { name: "only here", values: Uint8Array.of(1, 1) },
+      // Colors with more than a byte are columns, too.
+      { name: "red", values: Uint16Array.of(256, 1024) },
       { name: "flags", values: Uint8Array.of(7) },
       { name: "time", values: Float32Array.of(0.5) },
     ],

@@ -149,6 +149,15 @@ describe("files that contradict themselves", () => {
     expect(notes!.length).toBeGreaterThan(0);
   });
 
+  it("tables with lines that are no points, below the first one", async () => {
+    const content = "4\n1 2 3\n4 5\n6 7 8\n9 x 1\n";
+    expect(await refused(content)).toMatch(/^load: .*line 3 is not a point, it has 2 columns/);
+    const { positions, notes } = await readCloud(buffer(content), { damaged: true });
+    expect([...positions]).toEqual([1, 2, 3, 6, 7, 8]);
+    expect(notes!.join()).toMatch(/^2 lines are left out, the first: line 3 is not a point, .*: "4 5"$/);
+    await expect(readCloud(buffer("no table\n1 2 3\n"), { damaged: true })).rejects.toMatchObject({ code: "load" });
+  });
+
   it("LAS with too many or too few points, or with other bounds", async () => {
     const good = las(georeferencedBall(600));
     expect(await refused(changed(good, setCount(599)))).toMatch(/goes on after/);

@@ -33,6 +33,8 @@ export interface LoadedCloud {
   isMesh?: boolean;
   /** Sentences about the cloud that the user has to read. */
   notes?: string[];
+  /** The columns of a table that were taken for x, y and z, if other ones may have been meant. */
+  columnsAt?: readonly number[];
   /** The octree of which these are the coarser levels, if the others are read when they are needed. */
   streamed?: Streamed;
   /** How the cloud was measured, if the file says so: the direction that was up, and the places of the scanner. */
@@ -75,7 +77,10 @@ export interface Cloud {
 }
 
 /** A cloud ready to draw, with the file's own coordinates and the loader's words about it. */
-export interface PreparedCloud extends Pick<LoadedCloud, "positions" | "isMesh" | "notes" | "streamed" | "taken"> {
+export interface PreparedCloud extends Pick<
+  LoadedCloud,
+  "positions" | "isMesh" | "notes" | "columnsAt" | "streamed" | "taken"
+> {
   cloud: Cloud;
   /** A copy of the positions for the hull's worker, which keeps what it gets. */
   copy: Float32Array | Float64Array;

@@ -1,4 +1,5 @@
-import { Matrix4, Vector3 } from "three";
+import { Matrix4, PerspectiveCamera, Vector3 } from "three";
+import type { Cloud } from "../cloud/cloud.ts";
 import type { Viewpoint } from "../settings/settings.ts";
 import { clipping } from "../view/stage.ts";
 import { inLocal } from "../view/framing.ts";
@@ -18,4 +19,31 @@ export function pictureFrom(viewer: Viewer, viewpoint: Viewpoint): Picture {
     near: clipping(at.length(), cloud.radius).near,
     pixels: (camera.projectionMatrix.elements[5] * resolution.y) / 2,
   };
+}
+
+/** The width of each side in pixels. */
+const SIDE = 1024;
+const SIDES = [
+  [1, 0, 0],
+  [-1, 0, 0],
+  [0, 1, 0],
+  [0, -1, 0],
+  [0, 0, 1],
+  [0, 0, -1],
+] as const;
+
+/** Six pictures of all that is around a viewpoint: the sides of a cube. */
+export function picturesAround(cloud: Cloud, viewpoint: Viewpoint): Picture[] {
+  const at = inLocal(cloud, viewpoint);
+  const { near, far } = clipping(at.length(), cloud.radius);
+  const { projectionMatrix } = new PerspectiveCamera(90, 1, near, far);
+  return SIDES.map((side) => {
+    const up = new Vector3(...(side[1] === 0 ? [0, 1, 0] : [1, 0, 0]));
+    const toEye = new Matrix4()
+      .lookAt(at, new Vector3(...side).add(at), up)
+      .setPosition(at)
+      .invert();
+    const matrix = new Matrix4().multiplyMatrices(projectionMatrix, toEye).toArray();
+    return { matrix, width: SIDE, height: SIDE, near, pixels: SIDE / 2 };
+  });
 }

@@ -4,7 +4,7 @@ import type { LoadReply, LoadRequest } from "./protocol.ts";
 import script from "./worker.ts?worker&url";
 
 export { LoadProblem } from "./problem.ts";
-export type { LoadRequest } from "./protocol.ts";
+export type { LoadRequest, ReadOptions } from "./protocol.ts";
 
 /** A loading that has begun before anybody waits for it. */
 let ahead: { request: LoadRequest; loading: Loading } | null = null;
@@ -40,7 +40,7 @@ export function loadCloud(
       if (reply.kind === "progress") onProgress(reply.step, reply.fraction);
       else if (reply.kind === "points") onPoints(reply.points, reply.first);
       else if (reply.kind === "cloud") resolve(reply.prepared);
-      else reject(new LoadProblem(reply.sentence, reply.nonFinite));
+      else reject(new LoadProblem(reply.sentence, reply.rest));
     }, reject);
   }).finally(() => {
     loading.end();

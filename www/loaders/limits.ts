@@ -20,7 +20,7 @@ export function checkedCloud(name: string, cloud: LoadedCloud, skipNonFinite: bo
   if (bad > 0 && !skipNonFinite && !cloud.isGrid) {
     throw new LoadProblem(
       `${name} has ${number.format(bad)} of ${number.format(total)} points without a position (NaN or infinite).`,
-      bad,
+      { words: "without them", with: { skipNonFinite: true } },
     );
   }
   const finite = bad > 0 ? withoutNonFinite(cloud, total - bad) : cloud;

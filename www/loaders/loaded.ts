@@ -7,6 +7,8 @@ import { attributesOf } from "./attributes.ts";
 export interface Loading extends Pick<Reading, "name" | "onProgress" | "onPoints" | "base"> {
   blob: Blob;
   limit: number;
+  damaged?: boolean | undefined;
+  chosen?: Reading["chosen"];
   /** An octree with more points than this is streamed. */
   streamFrom?: number | undefined;
 }
@@ -15,13 +17,14 @@ const MOST_DECIMALS = 12;
 
 /** What the page keeps of a file. */
 export function loaded(name: string, file: CloudFile): LoadedCloud {
-  const { positions, notes, axes, areAxesPlain, isGrid, isMesh, up, stations, crs, las } = file;
+  const { positions, notes, axes, areAxesPlain, columnsAt, isGrid, isMesh, up, stations, crs, las } = file;
   const { facts, ...known } = attributesOf(file);
   return {
     positions,
     ...known,
     facts: { ...facts, ...(las && { las, ...decimalsOf(las) }), ...(crs && { crs }) },
     notes: [...(axes !== undefined && areAxesPlain === false ? [`${name}: ${axes}.`] : []), ...notes.map(sentence)],
+    ...(columnsAt && areAxesPlain === false && { columnsAt }),
     ...(isGrid && { isGrid }),
     ...(isMesh !== undefined && { isMesh }),
     ...((up ?? stations) && { taken: { ...(up && { up }), ...(stations && { stations }) } }),

@@ -27,6 +27,9 @@ export function merged(parts: readonly Named[]): LoadedCloud {
   const shared = columns[0]!.filter(({ name }) => columns.every((own) => own.some((other) => other.name === name)));
   const missing = new Set(columns.flatMap((own) => own.map(({ name }) => name)));
   for (const { name } of shared) missing.delete(name);
+  const colors = joinedColors(clouds);
+  // Another note says which files have no colors.
+  if (colors) for (const name of ["red", "green", "blue"]) missing.delete(name);
 
   const fields = shared.map(({ name }) => joinedField(name, columns, counts));
   const attributes = fields.flatMap((field) => attributeOf(field, clouds));
@@ -36,7 +39,7 @@ export function merged(parts: readonly Named[]): LoadedCloud {
       clouds.map(({ positions }) => positions),
       clouds.every(({ positions }) => positions instanceof Float32Array) ? Float32Array : Float64Array,
     ) as LoadedCloud["positions"],
-    colors: joinedColors(clouds),
+    colors,
     fields: [files, ...fields],
     attributes: [{ ...files, kind: "category" }, ...attributes],
     facts: joinedFacts(clouds),

@@ -1,4 +1,5 @@
 import type { PreparedCloud } from "../cloud/cloud.ts";
+import type { Rest } from "./problem.ts";
 import type { GeneratorName } from "../samples/generators.ts";
 
 /** A request of the page to the loading worker. Each worker gets one request. */
@@ -9,8 +10,12 @@ export type LoadRequest =
   | ({ kind: "file"; name: string; file: File } & ReadOptions)
   | { kind: "files"; name: string; files: File[]; limit?: number };
 
-interface ReadOptions {
-  skipNonFinite: boolean;
+export interface ReadOptions {
+  skipNonFinite?: boolean;
+  /** Whether a file that contradicts itself is read, and a table with lines that are no points. */
+  damaged?: boolean;
+  /** The columns of a table that are x, y and z. */
+  chosen?: [string, string, string];
   /** If there are more points than this, the cloud is thinned evenly. */
   limit?: number;
   /** An octree with more points than this is streamed: only its coarser levels are read now. */
@@ -25,4 +30,4 @@ export type LoadReply =
    */
   | { kind: "points"; points: Float32Array; first: [number, number, number] }
   | { kind: "cloud"; prepared: PreparedCloud }
-  | { kind: "problem"; sentence: string; nonFinite: number };
+  | { kind: "problem"; sentence: string; rest: Rest | undefined };

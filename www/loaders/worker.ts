@@ -45,7 +45,7 @@ self.onmessage = async ({ data: request }: MessageEvent<LoadRequest>) => {
       : error instanceof LoadProblem
         ? error
         : new LoadProblem(`${request.name} could not be read: ${String(error)}.`);
-    post({ kind: "problem", sentence: problem.message, nonFinite: problem.nonFinite });
+    post({ kind: "problem", sentence: problem.message, rest: problem.rest });
   }
 };
 
@@ -81,8 +81,8 @@ async function load(request: LoadRequest): Promise<LoadedCloud> {
     const { readSeveral } = await import("./several.ts");
     return readSeveral(request.files, { limit, onProgress, onPoints });
   }
-  const { streamFrom, skipNonFinite } = request;
-  const check = (cloud: LoadedCloud) => checkedCloud(name, cloud, skipNonFinite);
+  const { streamFrom, skipNonFinite, damaged, chosen } = request;
+  const check = (cloud: LoadedCloud) => checkedCloud(name, cloud, skipNonFinite === true);
   // Refuses texts that cannot be read as an address, and addresses that hold their own content (data:).
   if (request.kind === "url" && !URL.canParse(".", request.url)) {
     throw new LoadProblem(`“${shortened(request.url)}” is not the address of a file.`);
@@ -107,5 +107,5 @@ async function load(request: LoadRequest): Promise<LoadedCloud> {
   const base = request.kind === "url" ? new URL(".", request.url).href : undefined;
   // Samples do not need it, and the first cloud is one.
   const { readCloud } = await import("./read.ts");
-  return check(await readCloud({ name, blob, limit, streamFrom, onProgress, onPoints, base }));
+  return check(await readCloud({ name, blob, limit, streamFrom, onProgress, onPoints, base, damaged, chosen }));
 }

@@ -2,7 +2,7 @@ import { init } from "hidden-point-removal";
 import { WorkerPointCloud } from "hidden-point-removal/worker";
 import { Inquiry, isHang } from "../ask/inquiry.ts";
 import { WorkerCloud } from "../ask/worker-cloud.ts";
-import type { FileStation, Up } from "../cloud/cloud.ts";
+import type { Up } from "../cloud/cloud.ts";
 import { loadCloud, type LoadRequest } from "../loaders/index.ts";
 import type { Sample } from "../samples/samples.ts";
 import type { Settings } from "../settings/settings.ts";
@@ -50,8 +50,8 @@ export interface Ready {
   view: AskedView | null;
   /** Returns the first view, if this view is asked for, or the `whole` cloud with points that lie far away. */
   homeFrom: (view: AskedView | null, whole?: boolean) => (up: Up) => Home;
-  /** The places from which the points were measured, if the file says so. */
-  stations: FileStation[];
+  /** The columns of a table that were taken for x, y and z, if other ones may have been meant. */
+  columnsAt: readonly number[] | undefined;
   /** Sentences about wishes that cannot be met. */
   refusals: string[];
   /** Sentences that the user has to read about the cloud. */
@@ -111,8 +111,9 @@ export async function openCloud(
   const surface = surfaceOf(request, sample, loaded.isMesh);
 
   const { fieldOfView: fov, up } = { ...usual, ...wished };
-  const [station, ...stations] = loaded.taken?.stations ?? [];
-  const taken = station && stations.length === 0 ? { at: station.viewpoint, target: null } : null;
+  const stations = loaded.taken?.stations ?? [];
+  const [station] = stations;
+  const taken = station && stations.length === 1 ? { at: station.viewpoint, target: null } : null;
   const homeFrom = (asked: AskedView | null, whole?: boolean) => (upward: Up) => {
     const lens = { fov, ...place.shape() };
     const sameUp = upward === up;
@@ -156,7 +157,7 @@ export async function openCloud(
     }
     const answer = await inquiry.first(own.freeze ?? home.viewpoint, { ...place.settings(), ...own });
     signal.throwIfAborted();
-    const opened = { cloud, positions, inquiry, home, answer, findHome: homeFrom(view), surface };
+    const opened = { cloud, positions, inquiry, home, answer, findHome: homeFrom(view), surface, stations };
     return {
       opened,
       settings: own,
@@ -164,7 +165,7 @@ export async function openCloud(
       touching: touchingSize(sample, cloud.count),
       view,
       homeFrom,
-      stations: loaded.taken?.stations ?? [],
+      columnsAt: loaded.columnsAt,
       refusals: [...farNotes, ...colorNote],
       notes: loaded.notes ?? [],
     };

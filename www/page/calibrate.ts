@@ -1,10 +1,9 @@
-import { indicesByStation } from "../../src/ts/formats/stations.js";
 import { viewOf } from "../ask/question.ts";
-import type { Ready } from "../open/open-cloud.ts";
+import { measuredBy } from "../open/stations.ts";
 import type { Message } from "../panel/message.ts";
 import type { Settings } from "../settings/settings.ts";
 import type { Store } from "../settings/store.ts";
-import type { Viewer } from "../view/viewer.ts";
+import type { Opened, Viewer } from "../view/viewer.ts";
 import { sentenceOf } from "./notices.ts";
 
 interface Parts {
@@ -17,11 +16,9 @@ interface Parts {
  * Takes the smallest thickness at which the stations of the file see the points that they measured, and says which share of
  * these they see. Looks are needed for that.
  */
-export async function calibrate({ opened, stations }: Ready, { viewer, store, message }: Parts): Promise<void> {
-  const { cloud, positions, inquiry } = opened;
-  const measured = indicesByStation({ stations, columns: cloud.fields, positions })
-    .map((indices, i) => ({ viewpoint: stations[i]!.viewpoint, indices }))
-    .filter(({ indices }) => indices.length > 0);
+export async function calibrate(opened: Opened, { viewer, store, message }: Parts): Promise<void> {
+  const { cloud, inquiry } = opened;
+  const measured = measuredBy(opened);
   message.show("Looking from its stations.");
   const before = store.current;
   const looking = {

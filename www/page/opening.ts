@@ -1,5 +1,5 @@
 import { nextFrame } from "../controls/dom.ts";
-import { LoadProblem } from "../loaders/index.ts";
+import { LoadProblem, type ReadOptions } from "../loaders/index.ts";
 import { keepForOffline } from "../offline/keep.ts";
 import { openCloud } from "../open/open-cloud.ts";
 import { LoadingSign } from "../panel/loading-sign.ts";
@@ -15,6 +15,7 @@ import type { Workshop } from "../tools/workshop.ts";
 import type { AskedView } from "../view/framing.ts";
 import type { Viewer } from "../view/viewer.ts";
 import { calibrate } from "./calibrate.ts";
+import { chooseColumns } from "./columns.ts";
 import { isLoss, type Notices, sentenceOf } from "./notices.ts";
 import { fromSample, type Source } from "./sources.ts";
 import type { Status } from "./status.ts";
@@ -130,11 +131,23 @@ export class Opening {
         },
       });
     }
-    if (ready.stations.length > 0 && ready.settings.thickness === "auto") {
+    if (ready.opened.stations.length > 0 && ready.settings.thickness === "auto") {
       more.push("The file says where its points were measured from.");
       actions.push({
         label: "Calibrate by its stations",
-        run: () => void calibrate(ready, { viewer, store, message }),
+        run: () => void calibrate(ready.opened, { viewer, store, message }),
+      });
+    }
+    if (ready.columnsAt) {
+      const { columnsAt } = ready;
+      actions.push({
+        label: "Choose columns",
+        run: () => {
+          chooseColumns(columnsAt, (chosen) => {
+            const chosenRequest = asked(source, { chosen });
+            if (chosenRequest) void this.open({ ...source, request: chosenRequest });
+          });
+        },
       });
     }
     if (more.length > 0) message.show([...notes, ...more].join(" "), actions);
@@ -187,8 +200,10 @@ export class Opening {
   #refuse(error: unknown, source: Source): void {
     const { notices, address, viewer } = this.#parts;
     const sentence = sentenceOf(error, `${source.request.name} could not be opened`);
-    const without = withoutNonFinite(error, source);
-    const actions = without ? [{ label: "Load without them", run: () => void this.open(without) }] : [];
+    const actions = [];
+    const rest = error instanceof LoadProblem ? error.rest : undefined;
+    const request = rest && asked(source, rest.with);
+    if (request) actions.push({ label: `Load ${rest.words}`, run: () => void this.open({ ...source, request }) });
     if (isLoss(error)) actions.push({ label: "Restart", run: () => void this.open(source) });
     notices.error(sentence, actions);
     this.#picker.restore();
@@ -200,10 +215,7 @@ export class Opening {
   }
 }
 
-/** The same cloud without the points that have no position, if nothing else was wrong with it. */
-function withoutNonFinite(error: unknown, source: Source): Source | null {
-  const { request } = source;
-  const possible =
-    error instanceof LoadProblem && error.nonFinite > 0 && (request.kind === "file" || request.kind === "url");
-  return possible ? { ...source, request: { ...request, skipNonFinite: true } } : null;
+/** The request with other options. `undefined`: it is not for one file. */
+function asked({ request }: Source, options: ReadOptions): Source["request"] | undefined {
+  return request.kind === "file" || request.kind === "url" ? { ...request, ...options } : undefined;
 }

@@ -1,9 +1,11 @@
-import { operatorOf, viewOf } from "../ask/question.ts";
-import { pictureFrom } from "../compare/picture.ts";
+import { operatorOf, type ViewQuestion, viewOf } from "../ask/question.ts";
+import { nextFrame } from "../controls/dom.ts";
+import { pictureFrom, picturesAround } from "../compare/picture.ts";
 import { traced } from "../compare/truth.ts";
 import { Projected, VISIBLE, zBuffer } from "../compare/zbuffer.ts";
 import type { KnownSurface } from "../samples/samples.ts";
-import { USUAL_SETTINGS } from "../settings/settings.ts";
+import { USUAL_SETTINGS, type Viewpoint } from "../settings/settings.ts";
+import { type Measured, measuredBy } from "../open/stations.ts";
 import type { Viewer } from "../view/viewer.ts";
 
 /** What one method says about the points in the picture, beside the truth. */
@@ -26,6 +28,15 @@ export interface Judged {
   verdicts: Verdict[];
 }
 
+/** The questions of one hull and of looks, each with its name. */
+function questionsAt(at: Viewpoint): [method: string, question: ViewQuestion][] {
+  const settings = { ...USUAL_SETTINGS, looks: 3 as const };
+  return [
+    ["One hull, automatic radius", { ...viewOf(at, settings), method: operatorOf(settings) }],
+    ["Three looks, as on this page", viewOf(at, settings)],
+  ];
+}
+
 /**
  * Judges three methods by rays to the true surface, from the viewpoint of the last answer. Only the points in the picture
  * count, since a z-buffer knows no others. Rejects if the signal aborts.
@@ -45,11 +56,7 @@ export async function judge(
   const said = zBuffer(projected, projected.splatFor(inquiry.spacing));
   const buffered = said.map((kind) => (kind === VISIBLE ? 1 : 0));
   const verdicts = [verdictOf("Z-buffer of this picture", buffered)];
-  const settings = { ...USUAL_SETTINGS, looks: 3 as const };
-  for (const [method, question] of [
-    ["One hull, automatic radius", { ...viewOf(at, settings), method: operatorOf(settings) }],
-    ["Three looks, as on this page", viewOf(at, settings)],
-  ] as const) {
+  for (const [method, question] of questionsAt(at)) {
     const { visibility } = await inquiry.aside(question);
     signal.throwIfAborted();
     verdicts.push(verdictOf(method, visibility.mask()));
@@ -68,4 +75,63 @@ export async function judge(
     }
     return { method, shown, wrong: wrong / count, missed: missed / count };
   }
+}
+
+/** Of the points that stations have measured, the share that a method misses from there; and the share of all that it shows. */
+export interface StationVerdict {
+  method: string;
+  missed: number;
+  shown: number;
+}
+
+/** More stations would take minutes with a large scan. */
+const MOST_STATIONS = 4;
+
+/** The stations that judge: all of them, or an even share. */
+export function judges(viewer: Viewer): Measured[] {
+  const all = measuredBy(viewer.scene);
+  const step = Math.ceil(all.length / MOST_STATIONS);
+  return all.filter((_, i) => i % step === 0);
+}
+
+/** Judges three methods by the stations of a scan: each surely sees the points that it has measured. */
+export async function judgeByStations(
+  viewer: Viewer,
+  stations: readonly Measured[],
+  onProgress: (share: number) => void,
+  signal: AbortSignal,
+): Promise<StationVerdict[]> {
+  const { cloud, inquiry } = viewer.scene;
+  const sums = new Map<string, { missed: number; shown: number }>();
+  const own = stations.reduce((sum, { indices }) => sum + indices.length, 0);
+  const note = (method: string, mask: Uint8Array, indices: Uint32Array) => {
+    const { missed, shown } = sums.get(method) ?? { missed: 0, shown: 0 };
+    sums.set(method, {
+      missed: missed + indices.reduce((sum, index) => sum + 1 - mask[index]!, 0),
+      shown: shown + mask.reduce((sum, one) => sum + one, 0),
+    });
+  };
+  for (const [i, { viewpoint, indices }] of stations.entries()) {
+    onProgress(i / stations.length);
+    const mask = new Uint8Array(cloud.count);
+    for (const picture of picturesAround(cloud, viewpoint)) {
+      const projected = new Projected(cloud.local, picture);
+      const said = zBuffer(projected, projected.splatFor(inquiry.spacing));
+      for (let point = 0; point < mask.length; point++) if (said[point] === VISIBLE) mask[point] = 1;
+      // The dialog may be closed between two pictures.
+      await nextFrame();
+      signal.throwIfAborted();
+    }
+    note("Z-buffer of six pictures", mask, indices);
+    for (const [method, question] of questionsAt(viewpoint)) {
+      const { visibility } = await inquiry.aside(question);
+      signal.throwIfAborted();
+      note(method, visibility.mask(), indices);
+    }
+  }
+  return [...sums].map(([method, { missed, shown }]) => ({
+    method,
+    missed: missed / own,
+    shown: shown / (stations.length * cloud.count),
+  }));
 }

@@ -1,8 +1,8 @@
 import "./right.css";
-import { button, make } from "../tools/make.ts";
+import { button, make, tableRow } from "../tools/make.ts";
 import { THEMES } from "../view/theme.ts";
 import type { Viewer } from "../view/viewer.ts";
-import { judge, type Judged, type Verdict } from "./judge.ts";
+import { judge, judgeByStations, type Judged, judges, type StationVerdict, type Verdict } from "./judge.ts";
 
 const number = new Intl.NumberFormat("en-US");
 const percent = (share: number) => `${(100 * share).toFixed(2)} %`;
@@ -36,25 +36,26 @@ export async function showRight(viewer: Viewer): Promise<void> {
   dialog.focus();
 
   const { surface } = viewer.scene;
-  if (typeof surface === "string") {
+  const stations = judges(viewer);
+  if (typeof surface === "string" && stations.length === 0) {
     body.append(make("p", {}, `Nobody knows which points of this cloud are visible in truth. ${surface}`));
     return;
   }
-  const progress = make("progress", { max: "1", "aria-label": "Tracing rays" });
-  body.append(
-    make("p", {}, "A ray goes from the eye to each point. Those that the true surface stops are hidden."),
-    progress,
-  );
+  const progress = make("progress", { max: "1", "aria-label": "Judging" });
+  const onProgress = (share: number) => {
+    progress.value = share;
+  };
+  const words =
+    typeof surface === "string"
+      ? "A station sees the points that it has measured. From each station, three methods are asked."
+      : "A ray goes from the eye to each point. Those that the true surface stops are hidden.";
+  body.append(make("p", {}, words), progress);
   try {
-    const judged = await judge(
-      viewer,
-      surface,
-      (share) => {
-        progress.value = share;
-      },
-      closing.signal,
-    );
-    body.replaceChildren(...judgment(judged));
+    const judged =
+      typeof surface === "string"
+        ? byStations(await judgeByStations(viewer, stations, onProgress, closing.signal), stations.length)
+        : judgment(await judge(viewer, surface, onProgress, closing.signal));
+    body.replaceChildren(...judged);
   } catch (error) {
     if (closing.signal.aborted) return;
     dialog.close();
@@ -62,9 +63,20 @@ export async function showRight(viewer: Viewer): Promise<void> {
   }
 }
 
+function byStations(verdicts: readonly StationVerdict[], count: number): Node[] {
+  const whose = count === 1 ? "The scan’s station sees" : `${count} stations of the scan see`;
+  return [
+    make("p", {}, `${whose} the points that they have measured. A method that hides one of them is wrong.`),
+    tableOf(
+      ["Method", "Own points missed", "Of all points, shown"],
+      verdicts.map(({ method, missed, shown }) => ({ method, shares: [missed, shown], error: missed })),
+    ),
+    make("p", { class: "note" }, "What a method shows wrongly, a scan cannot tell: one that shows more misses less."),
+  ];
+}
+
 function judgment(judged: Judged): Node[] {
   const { verdicts, inside } = judged;
-  const best = Math.min(...verdicts.map(({ wrong, missed }) => wrong + missed));
   const words = make(
     "p",
     {},
@@ -74,21 +86,13 @@ function judgment(judged: Judged): Node[] {
     swatch("--only-reference"),
     "hidden although visible.",
   );
-  const table = make(
-    "table",
-    {},
-    make(
-      "thead",
-      {},
-      make(
-        "tr",
-        {},
-        ...["Method", "Shown, but hidden", "Hidden, but visible", "Wrong"].map((text) =>
-          make("th", { scope: "col" }, text),
-        ),
-      ),
-    ),
-    make("tbody", {}, ...verdicts.map((verdict) => rowOf(verdict, best))),
+  const table = tableOf(
+    ["Method", "Shown, but hidden", "Hidden, but visible", "Wrong"],
+    verdicts.map(({ method, wrong, missed }) => ({
+      method,
+      shares: [wrong, missed, wrong + missed],
+      error: wrong + missed,
+    })),
   );
   const pictures = verdicts.map((verdict) =>
     make(
@@ -101,12 +105,19 @@ function judgment(judged: Judged): Node[] {
   return [words, table, make("div", { class: "pictures" }, ...pictures)];
 }
 
-function rowOf({ method, wrong, missed }: Verdict, best: number): HTMLTableRowElement {
-  const together = wrong + missed;
-  const row = make("tr", {}, make("th", { scope: "row" }, method));
-  for (const text of [wrong, missed, together].map(percent)) row.append(make("td", {}, text));
-  row.classList.toggle("best", together === best);
-  return row;
+/** A table of shares. The row with the smallest error stands out. */
+function tableOf(
+  heads: readonly string[],
+  rows: readonly { method: string; shares: number[]; error: number }[],
+): HTMLTableElement {
+  const best = Math.min(...rows.map(({ error }) => error));
+  const head = make("tr", {}, ...heads.map((text) => make("th", { scope: "col" }, text)));
+  const body = rows.map(({ method, shares, error }) => {
+    const row = tableRow(method, ...shares.map(percent));
+    row.classList.toggle("best", error === best);
+    return row;
+  });
+  return make("table", {}, make("thead", {}, head), make("tbody", {}, ...body));
 }
 
 function swatch(color: string): HTMLElement {

@@ -1,7 +1,7 @@
 import { Matrix4, Quaternion } from "three";
 import { isSamePlace } from "../ask/question.ts";
 import type { Detail, Inquiry, Mapped, TimedView } from "../ask/inquiry.ts";
-import type { Attribute, Cloud, Up } from "../cloud/cloud.ts";
+import type { Attribute, Cloud, FileStation, Up } from "../cloud/cloud.ts";
 import type { KnownSurface } from "../samples/samples.ts";
 import { TOUCHING_FROM } from "../settings/limits.ts";
 import type { Settings, Viewpoint } from "../settings/settings.ts";
@@ -28,6 +28,8 @@ export interface Opened {
   findHome: (up: Up) => Home;
   /** The surface that its points were taken from. If it is not known, a sentence says why. */
   surface: KnownSurface | string;
+  /** The places from which the points were measured, if the file says so. */
+  stations: FileStation[];
 }
 
 type Shown = Opened & {

@@ -65,6 +65,8 @@ export interface CloudFile {
   notes: string[];
   /** In words: which columns are x, y and z, if their names do not say so. */
   axes?: string | undefined;
+  /** The numbers of these columns in a table, counted from 1. */
+  columnsAt?: readonly number[];
   /** Whether these columns are obvious for a person who looks at the file. */
   areAxesPlain?: boolean;
   /** Whether the points are the rows and columns of a picture. Then points without a position are usual. */

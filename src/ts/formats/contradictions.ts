@@ -12,7 +12,11 @@ export class Contradictions {
 
   /** @param says a sentence without a period, for example "it ends early" */
   add(says: string): void {
-    if (!this.#isRead) throw new FormatProblem(`${says}; it may be damaged`);
+    if (!this.#isRead) {
+      const problem = new FormatProblem(`${says}; it may be damaged`);
+      problem.rest = "anyway";
+      throw problem;
+    }
     if (!this.notes.includes(says)) this.notes.push(says);
   }
 }

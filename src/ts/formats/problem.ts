@@ -1,6 +1,8 @@
 /** An error for a file that breaks the rules of its format. The message follows "FILE cannot be read: ". */
 export class FormatProblem extends Error {
   override readonly name = "FormatProblem";
+  /** How the rest of the file can be read, with `damaged`: without a line, or although the file contradicts itself. */
+  rest: "without it" | "anyway" | undefined;
 }
 
 const LONGEST_QUOTE = 60;

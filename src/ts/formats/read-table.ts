@@ -1,5 +1,6 @@
 import { CloudBuilder } from "./builder.js";
 import type { CloudFile, Reading } from "./cloud-file.js";
+import { FormatProblem } from "./problem.js";
 import { step } from "./read-rows.js";
 import { lines } from "./source.js";
 import { cell } from "./table-words.js";
@@ -20,13 +21,26 @@ const COLORS = [/^(r|red)$/, /^(g|green)$/, /^(b|blue)$/];
 export async function readTable(reading: Reading): Promise<CloudFile> {
   const rows = new TableRows(reading.chosen);
   const type = reading.single ? "float32" : "float64";
+  const left: string[] = [];
+  /** Below the first point, a line that is none is left out, if that is asked for. */
+  const taken = (...given: Parameters<TableRows["take"]>) => {
+    try {
+      return rows.take(...given);
+    } catch (error) {
+      if (!(error instanceof FormatProblem) || rows.layout === undefined) throw error;
+      error.rest = "without it";
+      if (!reading.damaged) throw error;
+      left.push(error.message);
+      return undefined;
+    }
+  };
   let others: Other[] = [];
   let builder: CloudBuilder | undefined;
   for await (const { texts, number, end, places } of lines(await textOf(reading), 0)) {
     const at = reading.records ? places() : undefined;
     for (let line = 0; line < texts.length; line++) {
       const following = () => texts.slice(line, line + LOOK_AT);
-      const point = rows.take(texts[line]!, number + line, following);
+      const point = taken(texts[line]!, number + line, following);
       if (point === undefined) continue;
       if (builder === undefined) {
         others = otherColumns(rows.layout!, rowsIn(following(), rows.layout!));
@@ -42,7 +56,8 @@ export async function readTable(reading: Reading): Promise<CloudFile> {
     }
     step(reading, end);
   }
-  rows.finish();
+  // Without a line, the number of points that the file promises is another one.
+  if (left.length === 0 || builder === undefined) rows.finish();
   const layout = rows.layout!;
   const { width, axes, names } = layout;
   // Colors after the position are a sure sign, too, so nothing needs to be said.
@@ -50,8 +65,12 @@ export async function readTable(reading: Reading): Promise<CloudFile> {
     isPlain(layout) || (names === undefined && axes[0] === 0 && others.some((other) => other.name === "red"));
   const read = [...axes, ...others.map(({ column }) => column)];
   const unread = Array.from({ length: width }, (_, column) => names?.written[column] ?? `column ${column + 1}`);
+  const { notes, ...cloud } = builder!.finish();
+  const what = left.length === 1 ? "one line is left out" : `${left.length} lines are left out, the first`;
   return {
-    ...builder!.finish(),
+    ...cloud,
+    notes: left.length === 0 ? notes : [...notes, `${what}: ${left[0]!}`],
+    columnsAt: axes.map((axis) => axis + 1),
     unread: unread.filter((_, column) => !read.includes(column)),
     axes: columnsSaid(layout),
     areAxesPlain,
