@@ -85,6 +85,7 @@ const ROWS: Row[] = [
   ["names with brackets", `X [m],Y [m],Z [m]\n${COMMAS}`, SAME],
   ["names with units", `x_m,y_m,z_m\n${COMMAS}`, SAME],
   ["names with units, others before", `id,x_m,y_m,z_m,t\n${table(",", NUMBERED)}`, SAME],
+  ["ids beside E, N and H", `Nr,E,N,H,Time\n${table(",", NUMBERED)}`, SAME],
   ["easting, northing, height", `Id,Easting,Northing,Height,Time\n${table(",", NUMBERED)}`, SAME],
   ["east, north, altitude", `id;East;North;Altitude;t\n${table(";", NUMBERED)}`, SAME],
   ["names of ParaView", `"id","Points:0","Points:1","Points:2","t"\n${table(",", NUMBERED)}`, SAME],

@@ -3,8 +3,29 @@
 // no opinion.
 
 export function naive(name: string, content: Uint8Array): number[] | undefined {
+  if (name.endsWith(".e57")) return undefined;
   if (name.endsWith(".ply")) return ply(content);
+  if (name.endsWith(".ptx")) return ptx(latin(content));
   return name.endsWith(".pcd") ? pcd(content) : table(new TextDecoder().decode(content));
+}
+
+/** Scans that are not turned. */
+function ptx(text: string): number[] | undefined {
+  const lines = text.split(/\r\n|\r|\n/).filter((line) => !blank(line)).map((line) => strip(line).split(/[ \t\v\f]+/)); // prettier-ignore
+  const found: number[] = [];
+  while (lines.length > 0) {
+    const [columns, rows, , , , , ...matrix] = lines.splice(0, 10);
+    const turn = matrix.slice(0, 3).flat().map(real).join();
+    if (turn !== "1,0,0,0,0,1,0,0,0,0,1,0") return undefined;
+    const move = (matrix[3] ?? fail()).map(real);
+    for (let left = whole(columns?.[0]) * whole(rows?.[0]); left > 0; left--) {
+      const place = [0, 1, 2].map((axis) => real(lines[0]?.[axis]));
+      const isNone = place.every((x) => x === 0);
+      found.push(...place.map((x, axis) => (isNone ? NaN : x + move[axis]!)));
+      lines.shift();
+    }
+  }
+  return found;
 }
 
 interface Column {

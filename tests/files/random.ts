@@ -1,11 +1,17 @@
 // Random valid files, and random changes of files.
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
+
 import { binary, literals, packed, PLY_FORMATS, type Value } from "./valid";
 
 export interface ValidFile {
   kind: string;
   name: string;
   content: Buffer;
-  points: number[];
+  /** Undefined if only changes are tried. */
+  points: number[] | undefined;
+  /** Is done to changed files, which their checksums would refuse otherwise. */
+  seal?: (file: Buffer) => Buffer;
 }
 
 /** The words that changes put into files. */
@@ -85,7 +91,44 @@ function someNumber(random: Random): number {
 
 export function validFile(random: Random): ValidFile {
   const rows = Array.from({ length: 1 + random.below(5) }, () => [0, 1, 2].map(() => someNumber(random)));
-  return random.of([plyFile, pcdFile, tableFile])(random, rows);
+  const common = [plyFile, pcdFile, tableFile];
+  return random.of([...common, ...common, ptxFile, e57File])(random, rows);
+}
+
+/** One of the two scans that a test has made elsewhere. */
+function e57File(random: Random): ValidFile {
+  const name = random.of(["two-scans.e57", "polar.e57"]);
+  const content = readFileSync(join(import.meta.dirname, "../browser/fixtures", name));
+  const seal = (file: Buffer) => (random.below(2) === 0 ? file : Buffer.from(sealed(new Uint8Array(file))));
+  return { kind: "E57", name: "fuzz.e57", content, points: undefined, seal };
+}
+
+/** The checksum of each page of 1,024 bytes of an E57 file, CRC-32C in the wrong byte order, is computed anew. */
+export function sealed(file: Uint8Array): Uint8Array {
+  for (let page = 0; page + 1024 <= file.length; page += 1024) {
+    let sum = 0xffffffff;
+    for (const byte of file.subarray(page, page + 1020)) {
+      sum ^= byte;
+      for (let bit = 0; bit < 8; bit++) sum = sum & 1 ? (sum >>> 1) ^ 0x82f63b78 : sum >>> 1;
+    }
+    new DataView(file.buffer, file.byteOffset).setUint32(page + 1020, ~sum);
+  }
+  return file;
+}
+
+/** Scans of one column. The second one is moved. */
+function ptxFile(random: Random, rows: readonly number[][]): ValidFile {
+  const width = random.of([3, 4, 7]);
+  const scans = [[0, 0, 0], ...(random.below(2) === 0 ? [[0, 1, 2].map(() => someNumber(random))] : [])];
+  const line = (row: readonly number[], i: number) => [...row, 0.5, i % 256, 7, 255].slice(0, width).join(" ");
+  const text = scans.map(
+    (move) =>
+    ["1", `${rows.length}`, "0 0 0", "1 0 0", "0 1 0", "0 0 1", "1 0 0 0", "0 1 0 0", "0 0 1 0", `${move.join(" ")} 1`, ...rows.map(line)].join("\n"), // prettier-ignore
+  );
+  const placed = (move: number[]) =>
+    rows.flatMap((row) => row.map((x, axis) => (row.every((value) => value === 0) ? NaN : x + move[axis]!)));
+  const points = scans.flatMap(placed);
+  return { kind: "PTX", name: "fuzz.ptx", content: Buffer.from(`${text.join("\n")}\n`), points };
 }
 
 interface Extra {

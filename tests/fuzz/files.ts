@@ -28,7 +28,7 @@ const CHANGES_OF_EACH = 20;
 /** Tries a valid file and changes of it. The seed determines all of them. */
 export async function tryRound(seed: number, tallies: Map<string, Tally>, say: (text: string) => void): Promise<void> {
   const random = new Random(seed);
-  const { kind, name, content, points } = validFile(random);
+  const { kind, name, content, points, seal = (file: Buffer) => file } = validFile(random);
   const tally = tallies.get(kind) ?? { valid: 0, refused: 0, read: 0, wrong: 0 };
   tallies.set(kind, tally);
   const tell = (what: string, file: Uint8Array) => {
@@ -40,7 +40,7 @@ export async function tryRound(seed: number, tallies: Map<string, Tally>, say: (
   const fault = await faultOf(name, content, points);
   if (fault !== undefined) tell(`valid, but ${fault}`, content);
   for (let change = 0; change < CHANGES_OF_EACH; change++) {
-    const changed = random.changed(content);
+    const changed = seal(random.changed(content));
     const command = await attempt(name, changed);
     if (command === undefined || "points" in command) tally.read++;
     else tally.refused++;
@@ -63,7 +63,8 @@ async function faultOf(name: string, content: Uint8Array, expected?: readonly nu
   let page: Outcome;
   try {
     command = await readAsCommand(name, content);
-    page = await readAsPage(name, content);
+    // In Node, the page cannot load the wasm that reads E57.
+    page = name.endsWith(".e57") ? command : await readAsPage(name, content);
   } catch (error) {
     return `no sentence: ${String(error)}`;
   }

@@ -4,11 +4,11 @@ import { FormatProblem, quoted } from "./problem.js";
 import type { Axes } from "./rows.js";
 import { type Separator, separatorOf, split } from "./table-words.js";
 
-/** The names of x, y and z: the exact ones, and other usual ones. */
+/** The names of x, y and z: the exact ones, other usual ones, and letters of surveyors. */
 const CALLED = [
-  [/^x$/, /^(px|pos_?x|x_?pos|points:0|easting|east)$/],
-  [/^y$/, /^(py|pos_?y|y_?pos|points:1|northing|north)$/],
-  [/^z$/, /^(pz|pos_?z|z_?pos|points:2|elevation|height|altitude|up)$/],
+  [/^x$/, /^(px|pos_?x|x_?pos|points:0|easting|east)$/, /^e$/],
+  [/^y$/, /^(py|pos_?y|y_?pos|points:1|northing|north)$/, /^n$/],
+  [/^z$/, /^(pz|pos_?z|z_?pos|points:2|elevation|height|altitude|up)$/, /^h$/],
 ];
 const LENGTH = /^[[(]?(m|mm|cm|dm|km|um|µm|ft|feet|foot|in|inch|inches|us-?ft|ftus|yd|met(er|re)s?)?[\])]?$/i;
 const UNIT = /[[(]([^\])]*)[\])]$|[ _.-](m|mm|cm|km|ft|met(?:er|re)s?)$/i;
@@ -52,11 +52,12 @@ export function axesIn({ written, bare }: Names, chosen?: ChosenColumns): Axes |
   if (chosen) return chosenAxes(written, chosen);
   const placesOf = (pattern: RegExp | undefined) =>
     bare.flatMap((name, column) => (pattern?.test(name) === true ? [column] : []));
-  const exact = CALLED.map(([pattern]) => placesOf(pattern));
   // If there are columns x, y and z, all other columns are ignored. Otherwise, only one column may
   // have a name for each axis.
-  const found = exact.every(({ length }) => length > 0) ? exact : CALLED.map((patterns) => patterns.flatMap(placesOf));
-  if (found.some(({ length }) => length === 0)) return undefined;
+  const found = [[0], [0, 1], [2]]
+    .map((kinds) => CALLED.map((patterns) => kinds.flatMap((kind) => placesOf(patterns[kind]))))
+    .find((axes) => axes.every(({ length }) => length > 0));
+  if (found === undefined) return undefined;
   const several = found.find(({ length }) => length > 1);
   if (several) {
     throw new FormatProblem(
