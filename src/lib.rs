@@ -37,6 +37,7 @@ extern crate std;
 mod answers;
 mod base;
 mod cloud;
+#[cfg(feature = "higher")]
 mod dimensions;
 mod flip;
 mod hull;
@@ -64,8 +65,7 @@ pub use cloud::point_cloud::{NonFinite, PointCloud};
 pub use cloud::points::Position;
 pub use cloud::selection::Within;
 #[cfg(feature = "higher")]
-pub use dimensions::higher::{MAX_DIMENSION, PointCloudNd};
-pub use dimensions::two::PointCloud2d;
+pub use dimensions::{MAX_DIMENSION, PointCloudNd};
 pub use hull::division::Sector;
 pub use view::camera::{Camera, Convention, Pose};
 pub use view::distortion::CameraModel;

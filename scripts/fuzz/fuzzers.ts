@@ -8,8 +8,8 @@ import { inRoot } from "../lib/paths.js";
  */
 export interface Fuzzer {
   title: string;
-  /** The Rust program, if the fuzzer is one. */
-  program?: string;
+  /** True of the checks of `fuzz_core`. */
+  isRust: boolean;
   command: string[];
 }
 
@@ -22,22 +22,23 @@ const FUNCTIONS: Record<string, { file: string; name: string }> = {
   stream: { file: "tests/fuzz/stream.ts", name: "fuzzStream" },
 };
 
-/** Every check of tests/core/checks, every other Rust program `fuzz_…` of tests/Cargo.toml, and the functions. */
+/** Every check of tests/core/checks, and the functions. */
 export function allFuzzers(): Fuzzer[] {
-  const checks = named("tests/core/checks/mod.rs", /^ {4}check\("(\w+)"/gm).map((title) => rust(title, "fuzz_core"));
-  const programs = named("tests/Cargo.toml", /^name = "fuzz_(?!core)(\w+)"$/gm).map((title) => rust(title));
-  return [...checks, ...programs, ...Object.entries(FUNCTIONS).map(([title, it]) => typescript(title, it))];
+  const checks = readFileSync(inRoot("tests/core/checks/mod.rs"), "utf8").matchAll(/^ {4}check\("(\w+)"/gm);
+  return [
+    ...[...checks].map(([, title]) => rust(title!)),
+    ...Object.entries(FUNCTIONS).map(([title, it]) => typescript(title, it)),
+  ];
 }
 
-function named(file: string, pattern: RegExp): string[] {
-  return [...readFileSync(inRoot(file), "utf8").matchAll(pattern)].map(([, title]) => title!);
-}
-
-function rust(title: string, program = `fuzz_${title}`): Fuzzer {
-  const check = program === "fuzz_core" ? ["--check", title] : [];
-  return { title, program, command: [inRoot("target", "fuzz", program), ...check] };
+function rust(title: string): Fuzzer {
+  return { title, isRust: true, command: [inRoot("target", "fuzz", "fuzz_core"), "--check", title] };
 }
 
 function typescript(title: string, { file, name }: { file: string; name: string }): Fuzzer {
-  return { title, command: [process.execPath, inRoot("target", "scripts", "fuzz", "function.js"), file, name] };
+  return {
+    title,
+    isRust: false,
+    command: [process.execPath, inRoot("target", "scripts", "fuzz", "function.js"), file, name],
+  };
 }

@@ -143,14 +143,11 @@ impl Options {
         Ok(())
     }
 
-    /// Refuses options that this dimension has not, which is 2 or at least 4.
+    /// Refuses options that a cloud of this dimension, at least 4, has not.
+    #[cfg(feature = "higher")]
     pub(crate) fn check_dimension(&self, dimension: usize) -> Result<(), Error> {
-        let low = [DENOISE, VOTE, LOOKS, SCORES];
-        let higher = [DRAFT, SAMPLE, WITHIN];
-        let mut refused = self.first_of(&low);
-        if dimension > 3 {
-            refused = refused.or(self.first_of(&higher));
-        }
+        let features = [DENOISE, VOTE, LOOKS, SCORES, DRAFT, SAMPLE, WITHIN];
+        let refused = self.first_of(&features);
         refused.map_or(Ok(()), |option| Err(Error::Dimension { option, dimension }))
     }
 

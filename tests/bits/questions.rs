@@ -1,8 +1,8 @@
 //! All questions that a cloud can be asked.
 
 use hidden_point_removal::{
-    Inversion, Lighting, NonFinite, Options, PointCloud, PointCloud2d, Radius, Sector, Visibility,
-    merge_visible, permissible_curvature, radius_bound, ring_of_viewpoints,
+    Inversion, Lighting, NonFinite, Options, PointCloud, Radius, Sector, Visibility, merge_visible,
+    permissible_curvature, radius_bound, ring_of_viewpoints,
 };
 
 use super::answer::{Answer, Collector};
@@ -213,11 +213,11 @@ fn illuminate(subject: &Subject) -> Answer {
     answer.finish()
 }
 
-/// The cloud seen from above, in two dimensions.
+/// The cloud seen from above, in a plane.
 fn plane(subject: &Subject) -> Answer {
-    let flat = |[x, y, _]: [f64; 3]| [x, y];
+    let flat = |[x, y, _]: [f64; 3]| [x, y, 0.0];
     let points: Vec<_> = subject.points.iter().map(|&p| flat(p)).collect();
-    let cloud = expected(PointCloud2d::new(&points));
+    let cloud = expected(PointCloud::new(&points));
     let mut answer = Collector::new();
     for options in [Options::default(), with_rule(Radius::Search), exponential()] {
         answer.view(&expected(

@@ -1,7 +1,7 @@
 //! The automatic radius: R = 0.4·n^¼·r²/g, never below the farthest distance. g is wider where the
 //! surface has wide places without points.
 
-use hidden_point_removal::{Options, PointCloud, PointCloud2d, Radius};
+use hidden_point_removal::{Options, PointCloud, Radius};
 
 use crate::common::ask;
 use crate::common::flip::{distance, farthest};
@@ -277,11 +277,10 @@ fn flat_sides_without_points_make_the_sphere_smaller() {
         let (scaled, _) = automatic(&scaled, viewpoint.map(|x| x * scale));
         assert_eq!((scaled / scale).to_bits(), radius.to_bits());
     }
-    // The same in a plane is a cloud of two dimensions, whose curves fill nothing.
-    let flat: Vec<[f64; 2]> = tin.iter().map(|&[x, y, _]| [x, y]).collect();
-    let seen = PointCloud2d::new(&flat).unwrap();
-    let chosen = seen.auto_radius([0.5, 4.0], Radius::Auto).unwrap();
-    let flat: Vec<_> = flat.iter().map(|&[x, y]| [x, y, 0.0]).collect();
+    // Curves in a plane fill nothing.
+    let flat: Vec<_> = tin.iter().map(|&[x, y, _]| [x, y, 0.0]).collect();
+    let seen = PointCloud::new(&flat).unwrap();
+    let chosen = seen.auto_radius([0.5, 4.0, 0.0], Radius::Auto).unwrap();
     let expected = self::expected(&flat, [0.5, 4.0, 0.0]);
     assert!((chosen.radius / expected - 1.0).abs() < 1e-9);
 }

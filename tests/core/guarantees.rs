@@ -3,7 +3,7 @@
 use core::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use hidden_point_removal::{
-    Error, Exponential, Inversion, Options, PointCloud2d, permissible_curvature, radius_bound,
+    Error, Exponential, Inversion, Options, PointCloud, permissible_curvature, radius_bound,
 };
 
 use crate::common::flip::distance;
@@ -11,8 +11,9 @@ use crate::common::rng::Rng;
 use crate::common::{ask, shapes};
 
 fn planar(points: &[[f64; 2]], options: &Options) -> Vec<u8> {
-    let cloud = PointCloud2d::new(points).unwrap();
-    cloud.visible_from([0.0; 2], options).unwrap().mask()
+    let points: Vec<_> = points.iter().map(|&[x, y]| [x, y, 0.0]).collect();
+    let cloud = PointCloud::new(&points).unwrap();
+    cloud.visible_from([0.0; 3], options).unwrap().mask()
 }
 
 fn norm([x, y]: [f64; 2]) -> f64 {

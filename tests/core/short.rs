@@ -39,5 +39,6 @@ short! {
     coverage 60;
     invariance 300;
     parts 100;
+    maps 20;
     threads 100;
 }

@@ -1,7 +1,7 @@
 //! Tests for faults that all other tests missed. These gaps were found by changing the code in
 //! one place at a time, and by listing the lines that no test reaches.
 
-use hidden_point_removal::{Error, MAX_POINTS, Options, PointCloud, PointCloud2d, PointCloudNd};
+use hidden_point_removal::{Error, MAX_POINTS, Options, PointCloud, PointCloudNd};
 
 use crate::common::rng::Rng;
 use crate::common::{ask, sectors, shapes};
@@ -48,7 +48,7 @@ fn a_cloud_that_is_prepared_twice_answers_alike() {
 /// Three neighbors at the distances 3, 4 and 5.
 #[test]
 fn the_spacing_is_told_in_every_dimension() {
-    let flat = PointCloud2d::new(&[[0.0, 0.0], [3.0, 0.0], [0.0, 4.0]]).unwrap();
+    let flat = PointCloud::new(&[[0.0; 3], [3.0, 0.0, 0.0], [0.0, 4.0, 0.0]]).unwrap();
     assert_eq!(flat.spacing(), 4.0);
     let corners = [[0.0; 4], [3.0, 0.0, 0.0, 0.0], [0.0, 0.0, 0.0, 4.0]].concat();
     assert_eq!(PointCloudNd::new(4, &corners).unwrap().spacing(), 4.0);

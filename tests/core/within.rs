@@ -2,8 +2,8 @@
 //! those of a cloud of these points alone.
 
 use hidden_point_removal::{
-    Error, Exponential, Inversion, Lighting, Options, PointCloud, PointCloud2d, PointCloudNd,
-    Radius, Sector, Within, merge_visible,
+    Error, Exponential, Inversion, Lighting, Options, PointCloud, PointCloudNd, Radius, Sector,
+    Within, merge_visible,
 };
 
 use crate::common::NOWHERE;
@@ -273,13 +273,13 @@ fn choices_that_make_no_sense_are_refused() {
 
 #[test]
 fn a_cloud_in_a_plane_follows_a_choice() {
-    let cloud = PointCloud2d::new(&[[0.0, 1.0], [0.0, 2.0], [3.0, 0.0]]).unwrap();
+    let cloud = PointCloud::new(&[[0.0, 1.0, 0.0], [0.0, 2.0, 0.0], [3.0, 0.0, 0.0]]).unwrap();
     let within = Within {
         distance: Some(3.5),
         bounds: Some([[-1.0, -1.0, 0.0], [1.0, 5.0, 0.0]]),
     };
     let options = only(within, &Options::default());
-    let seen = |y: f64| cloud.visible_from([0.0, y], &options).unwrap();
+    let seen = |y: f64| cloud.visible_from([0.0, y, 0.0], &options).unwrap();
     assert_eq!(seen(5.0).indices(), [1]);
     assert_eq!(seen(-2.0).indices(), [0]);
     assert_eq!(seen(-9.0).count(), 0);

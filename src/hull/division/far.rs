@@ -176,6 +176,12 @@ impl Far {
     }
 }
 
+/// A bit for each point of a block, in a cloud of `count` points.
+pub(super) fn places_in(block: usize, count: usize) -> u64 {
+    let here = BLOCK.min(count - block * BLOCK);
+    u64::MAX >> (BLOCK - here)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -276,10 +282,4 @@ mod tests {
         assert_eq!(far.most_in_the_way((m, -1.0), &flipped).unwrap(), None);
         assert!(far.counts.iter().flatten().all(|&count| count == 0));
     }
-}
-
-/// A bit for each point of a block, in a cloud of `count` points.
-pub(super) fn places_in(block: usize, count: usize) -> u64 {
-    let here = BLOCK.min(count - block * BLOCK);
-    u64::MAX >> (BLOCK - here)
 }

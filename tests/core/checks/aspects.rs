@@ -2,7 +2,7 @@
 //! and answers that combine several views.
 
 use hidden_point_removal::{
-    Exponential, Inversion, Options, PointCloud, PointCloud2d, Radius, Visibility, merge_visible,
+    Exponential, Inversion, Options, PointCloud, Radius, Visibility, merge_visible,
 };
 
 use crate::common::flip::flip_as;
@@ -149,11 +149,10 @@ fn planar(scene: &Scene) -> Option<(Vec<u32>, Vec<u32>)> {
     if scene.points.iter().any(|p| p[2] != z) {
         return None;
     }
-    let points: Vec<[f64; 2]> = scene.points.iter().map(|p| [p[0], p[1]]).collect();
-    let cloud = PointCloud2d::new(&points).ok()?;
-    // Automatic choices depend on the dimension. So this answer may differ from the scene's.
-    let answer = cloud.visible_from([x, y], &scene.options).ok()?;
-    let flat: Vec<_> = points.iter().map(|&[x, y]| [x, y, 0.0]).collect();
+    let flat: Vec<_> = scene.points.iter().map(|p| [p[0], p[1], 0.0]).collect();
+    let cloud = PointCloud::new(&flat).ok()?;
+    // Automatic choices depend on the plane. So this answer may differ from the scene's.
+    let answer = cloud.visible_from([x, y, 0.0], &scene.options).ok()?;
     let flip = |&p: &[f64; 3]| flip_as(p, [x, y, 0.0], &answer);
     let flipped: Vec<_> = flat.iter().map(flip).collect();
     let expected = indices_of(&definition::visible(&flipped));

@@ -16,6 +16,7 @@ mod coverage;
 mod dimensions;
 mod drafts;
 mod invariance;
+mod maps;
 mod oracle;
 mod parts;
 mod sectors;
@@ -31,7 +32,7 @@ pub struct Check {
     pub ask: fn(&Scene, &mut Rng) -> Result<(), String>,
 }
 
-pub const CHECKS: [Check; 12] = [
+pub const CHECKS: [Check; 13] = [
     check("oracle", oracle::subject, oracle::check),
     check("sectors", |rng| subject(rng, 2500), sectors::check),
     check("drafts", drafts::subject, drafts::check),
@@ -43,6 +44,7 @@ pub const CHECKS: [Check; 12] = [
     check("coverage", |rng| subject(rng, 400), coverage::check),
     check("invariance", |rng| subject(rng, 2500), invariance::check),
     check("parts", |rng| subject(rng, 1200), parts::check),
+    check("maps", maps::subject, maps::check),
     check("threads", |rng| subject(rng, 9000), threads::check),
 ];
 

@@ -1,7 +1,7 @@
 //! Small clouds of two to seven dimensions, asked and compared with the definition.
 
 use hidden_point_removal::{
-    Error, Exponential, Inversion, Options, PointCloud, PointCloud2d, PointCloudNd, Visibility,
+    Error, Exponential, Inversion, Options, PointCloud, PointCloudNd, Visibility,
 };
 
 use super::rational::{flipped_as, visible_by_definition};
@@ -83,8 +83,9 @@ impl Case {
     }
 
     pub fn asked(&self) -> Result<Visibility, Error> {
-        fn fixed<const D: usize>(row: &[f64]) -> [f64; D] {
-            row[..].try_into().expect("as many coordinates")
+        /// In space; a plane is one with z = 0.
+        fn fixed(row: &[f64]) -> [f64; 3] {
+            core::array::from_fn(|axis| row.get(axis).copied().unwrap_or(0.0))
         }
         let Self {
             rows,
@@ -93,9 +94,7 @@ impl Case {
             ..
         } = self;
         match viewpoint.len() {
-            2 => PointCloud2d::new(&rows.iter().map(|row| fixed(row)).collect::<Vec<_>>())?
-                .visible_from(fixed(viewpoint), options),
-            3 => PointCloud::new(&rows.iter().map(|row| fixed(row)).collect::<Vec<_>>())?
+            2 | 3 => PointCloud::new(&rows.iter().map(|row| fixed(row)).collect::<Vec<_>>())?
                 .visible_from(fixed(viewpoint), options),
             dimension => {
                 PointCloudNd::new(dimension, &rows.concat())?.visible_from(viewpoint, options)

@@ -3,7 +3,7 @@
 use alloc::vec::Vec;
 
 use crate::base::allocation::{OutOfMemory, filled, push, reserve, with_capacity};
-use crate::dimensions::higher::plane::subtract;
+use crate::dimensions::plane::subtract;
 
 /// Coordinates are rounded. A distance from a flat counts as 0 up to so many times the rounding of
 /// the coordinates that it is computed from.

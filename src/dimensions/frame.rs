@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 
 use crate::base::allocation::{OutOfMemory, filled, with_capacity};
 use crate::base::real::power_of_two_below;
-use crate::dimensions::higher::residues::{Integers, inverse, times_plus};
+use crate::dimensions::residues::{Integers, inverse, times_plus};
 
 /// The rank is the larger one modulo these primes, so it is too small only if both divide all
 /// determinants of some order.

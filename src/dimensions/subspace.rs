@@ -6,8 +6,8 @@ use alloc::vec::Vec;
 use crate::base::allocation::{OutOfMemory, filled, with_capacity};
 use crate::base::error::Error;
 use crate::cloud::point_cloud::{NonFinite, PointCloud};
-use crate::dimensions::higher::frame::columns;
-use crate::dimensions::higher::rows::Rows;
+use crate::dimensions::frame::columns;
+use crate::dimensions::rows::Rows;
 
 /// The cloud and the viewpoints in the subspace.
 type InSpace = (PointCloud, Vec<[f64; 3]>);

@@ -10,7 +10,7 @@ use crate::base::sort::{ordered, sort_by_numbers};
 use crate::cloud::point_cloud::NonFinite;
 use crate::cloud::points::checked_len;
 use crate::cloud::surface;
-use crate::dimensions::higher::flat::Flat;
+use crate::dimensions::flat::Flat;
 
 /// The spacing of a point is its mean distance from `NEIGHBORS` points; it is measured at
 /// `SAMPLES` points.

@@ -16,9 +16,9 @@ use alloc::vec::Vec;
 
 use crate::base::allocation::{OutOfMemory, fill, filled, push, reserve};
 use crate::base::beat;
-use crate::dimensions::higher::frame::Frame;
-use crate::dimensions::higher::plane::{Plane, subtract};
-use crate::dimensions::higher::residues::Exact;
+use crate::dimensions::frame::Frame;
+use crate::dimensions::plane::{Plane, subtract};
+use crate::dimensions::residues::Exact;
 
 /// A share of a vector in a basis that counts as 0 in rounded steps.
 const NOTHING: f64 = 1e-11;
