@@ -10,7 +10,7 @@ export default defineConfig(
     languageOptions: {
       parserOptions: {
         // The service worker has other globals.
-        project: ["tsconfig.lint.json", "www/offline/tsconfig.json"],
+        project: ["tsconfig.json", "www/offline/tsconfig.json"],
         tsconfigRootDir: import.meta.dirname,
       },
     },

@@ -9,7 +9,7 @@ import { inRoot } from "../lib/paths.js";
 export interface Fuzzer {
   title: string;
   /** True of the checks of `fuzz_core`. */
-  isRust: boolean;
+  isRust?: true;
   command: string[];
 }
 
@@ -38,7 +38,6 @@ function rust(title: string): Fuzzer {
 function typescript(title: string, { file, name }: { file: string; name: string }): Fuzzer {
   return {
     title,
-    isRust: false,
     command: [process.execPath, inRoot("target", "scripts", "fuzz", "function.js"), file, name],
   };
 }

@@ -167,17 +167,6 @@ describe("memory", () => {
   const pages = 120;
   const points = bumpySphere(9, 20_000);
 
-  it("comes back from clouds that are disposed of", async () => {
-    const small = await freshPackage();
-    small.initSync(cappedWasm(pages));
-    for (let i = 0; i < 30; i++) {
-      const cloud = new small.PointCloud(points);
-      expect(cloud.visibleFrom([0, 0, 5]).count).toBeGreaterThan(100);
-      cloud.dispose();
-      small.hiddenPointRemoval(points, [0, 5, 0]);
-    }
-  });
-
   it("comes back from clouds that nothing refers to any more", async () => {
     setFlagsFromString("--expose-gc");
     const collectGarbage = runInNewContext("gc") as () => void;
