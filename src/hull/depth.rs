@@ -395,7 +395,7 @@ pub(super) fn turned(side: usize, v: DVec3) -> (f64, f64, f64) {
 }
 
 /// (x, y) on a side of the cube.
-pub(super) fn direction(side: usize, x: f64, y: f64) -> DVec3 {
+pub(crate) fn direction(side: usize, x: f64, y: f64) -> DVec3 {
     let z = if side % 2 == 0 { 1.0 } else { -1.0 };
     match side / 2 {
         0 => DVec3::new(x, y, z),

@@ -11,8 +11,8 @@ use glam::DVec3;
 use crate::base::allocation::{OutOfMemory, filled, with_capacity};
 use crate::base::real::{floor, larger, smaller, square_root};
 use crate::hull::depth::{Window, place, turned};
-use crate::hull::dual_plane::Plane;
 use crate::hull::memory::Memory;
+use crate::hull::topology::{FaceId, Vertex};
 
 /// The largest number of cells along a side of length 1. Then single precision still finds the cell
 /// of a direction, except near its border.
@@ -25,10 +25,11 @@ const HEIGHT_ERROR: f64 = 64.0 * f64::EPSILON;
 pub(crate) struct Reaches {
     pub windows: [Window; 6],
     pub cells_per_unit: f64,
-    /// For each corner an upper bound of w: K ends at 1/w times (x, y, 1) or beyond. Infinite where
-    /// none is known.
-    pub heights: Vec<f64>,
+    /// For each corner the outer face that it is certainly inside, or `NO_FACE`.
+    pub faces: Vec<FaceId>,
 }
+
+pub(crate) const NO_FACE: FaceId = FaceId::MAX;
 
 /// Three corners of a face on a side of the cube.
 type Places = [[f64; 2]; 3];
@@ -62,12 +63,34 @@ impl Memory {
         let mut reaches = Reaches {
             windows,
             cells_per_unit,
-            heights: filled(corners, f64::INFINITY)?,
+            faces: filled(corners, NO_FACE)?,
         };
-        self.each_face(&seen, false, &mut |side, places, plane| {
-            reaches.fill(side, places, plane);
+        self.each_face(&seen, false, &mut |side, places, id| {
+            reaches.fill(side, places, id);
         });
         Ok(Some(reaches))
+    }
+
+    /// The corners of a face.
+    pub(crate) fn corners(&self, id: FaceId) -> Option<[Vertex; 3]> {
+        (id != NO_FACE).then(|| self.hull.surface.face(id).vertices)
+    }
+
+    /// An upper bound of w along (x, y, 1) on a side of the cube, which is inside this face: K ends at
+    /// 1/w times (x, y, 1) or beyond. Infinite where none is known.
+    #[inline]
+    pub(crate) fn height(&self, id: FaceId, side: usize, [right, up]: [f64; 2]) -> f64 {
+        if id == NO_FACE {
+            return f64::INFINITY;
+        }
+        let plane = &self.hull.surface.face(id).data;
+        let (x, y, z) = turned(side, plane.m);
+        let height = x * right + y * up + z;
+        if height <= 0.0 {
+            return f64::INFINITY;
+        }
+        let spread = x.abs() + y.abs() + z.abs();
+        height * (1.0 + 2.0 * plane.error) + spread * HEIGHT_ERROR
     }
 
     /// Passes each outer face on each side of the cube that it is on, or only those on several sides.
@@ -77,17 +100,17 @@ impl Memory {
         &self,
         seen: &[(usize, [f64; 2])],
         across_only: bool,
-        pass: &mut dyn FnMut(usize, Places, &Plane),
+        pass: &mut dyn FnMut(usize, Places, FaceId),
     ) {
         let hull = &self.hull;
-        for (_, face) in hull.surface.alive() {
+        for (id, face) in hull.surface.alive() {
             let [(a, p), (b, q), (c, r)] = face.vertices.map(|vertex| seen[vertex as usize]);
             if face.data.is_exact_only() {
                 continue;
             }
             if a == b && a == c {
                 if !across_only {
-                    pass(a, [p, q, r], &face.data);
+                    pass(a, [p, q, r], id);
                 }
                 continue;
             }
@@ -99,7 +122,7 @@ impl Memory {
                 // A face that reaches behind a side is left out there.
                 let ahead = corners.map(|q| place_on(side, q));
                 if let [Some(a), Some(b), Some(c)] = ahead {
-                    pass(side, [a, b, c], &face.data);
+                    pass(side, [a, b, c], id);
                 }
             }
         }
@@ -178,9 +201,9 @@ fn grid(sides: &[Side; 6], count: usize) -> Option<([Window; 6], f64)> {
 }
 
 impl Reaches {
-    /// Writes the height of each corner that is certainly inside a face.
+    /// Writes the face at each corner that is certainly inside it.
     #[inline]
-    fn fill(&mut self, side: usize, places: Places, plane: &Plane) {
+    fn fill(&mut self, side: usize, places: Places, id: FaceId) {
         let window = self.windows[side];
         let scale = self.cells_per_unit;
         let places = places.map(|[x, y]| [(x - window.x) * scale, (y - window.y) * scale]);
@@ -196,7 +219,7 @@ impl Reaches {
         let (bottom, top) = range(1, window.rows);
         // Most faces have no corner inside.
         if left <= right && bottom <= top {
-            self.fill_rows(side, places, [left, right, bottom, top], plane);
+            self.fill_rows(side, places, [left, right, bottom, top], id);
         }
     }
 
@@ -206,10 +229,9 @@ impl Reaches {
         side: usize,
         [a, mut b, mut c]: Places,
         [left, right, bottom, top]: [f64; 4],
-        plane: &Plane,
+        id: FaceId,
     ) {
         let window = self.windows[side];
-        let cell = 1.0 / self.cells_per_unit;
         let turn = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
         if turn < 0.0 {
             core::mem::swap(&mut b, &mut c);
@@ -219,11 +241,6 @@ impl Reaches {
             Edge::new(b, c, self),
             Edge::new(c, a, self),
         ];
-        // The height is linear in the column and the row.
-        let (x, y, z) = turned(side, plane.m);
-        let spread = x.abs() + y.abs() + z.abs();
-        let (along, base) = (x * cell, x * window.x + z);
-        let (larger_by, more) = (1.0 + 2.0 * plane.error, spread * HEIGHT_ERROR);
         let mut row = bottom;
         while row <= top {
             let starts = [0, 1, 2].map(|edge| edges[edge].start(row));
@@ -233,18 +250,13 @@ impl Reaches {
                     edge.narrow(start, &mut first, &mut last);
                 }
             }
-            let start = base + y * (window.y + row * cell);
             let line = window.first + row as usize * (window.columns + 1);
             let mut column = first;
             while column <= last {
                 let is_inside =
                     (edges.iter().zip(starts)).all(|(edge, start)| start > edge.down * column);
                 if is_inside {
-                    let height = start + along * column;
-                    if height > 0.0 {
-                        let known = &mut self.heights[line + column as usize];
-                        *known = smaller(*known, height * larger_by + more);
-                    }
+                    self.faces[line + column as usize] = id;
                 }
                 column += 1.0;
             }

@@ -87,10 +87,9 @@ test("while a drag turns the camera, each frame shows what can be seen", async (
   expect(new Set(moving.map(({ answer }) => answer)).has("draft")).toBe(false);
   expect(byMap[0]).toMatchObject({ busy: "1", visible: String(first.visible) });
   expect(moving.at(-1)!.refilters - moving[0]!.refilters).toBeGreaterThan(12);
-  // The last frames are of nearly the same place as the picture at rest. A map of looks leaves hidden points in the
-  // picture rather than hide what the looks show: .68 of the way to all points was measured on a busy machine.
-  for (const frame of moving.slice(-4)) {
-    expect(Math.abs(frame.brightness - rest)).toBeLessThan(0.75 * Math.abs(all - rest));
-  }
+  // The last frames are of nearly the same place as the picture at rest: .04 to .1 of the way to all points was measured. On
+  // a busy machine some come before the map of their place.
+  const ways = moving.slice(-4).map(({ brightness }) => Math.abs(brightness - rest) / Math.abs(all - rest));
+  expect(Math.min(...ways)).toBeLessThan(0.15);
   expect(last).toMatchObject({ answer: "looks", busy: 0 });
 });

@@ -21,6 +21,12 @@ use crate::view::resolved::check_viewpoint;
 
 /// The highest score of a hull vertex, by look.
 const SCORES: [f64; 3] = [1.0, 1.0, 0.9];
+/// How many times the scale of the last look is that of a map. Its points are `apart` times as far from
+/// each other as those of the cloud.
+const TIGHTER: f64 = 1.5;
+/// How far, in standard deviations of the noise, a point may be from its place without noise. At 8, the
+/// noisiest of 42 clouds lost 1.2 % of what looks show, at 10 it lost .9 %.
+const DEVIATIONS: f64 = 10.0;
 
 /// The place, among the three looks, of look `number` of `count`.
 fn place(count: usize, number: usize) -> usize {
@@ -41,24 +47,22 @@ fn scales_of(count: usize, tuning: &Tuning) -> [f64; 3] {
     scales
 }
 
-/// The flip of the last look from a viewpoint, with a scale that is `larger` by this factor, how far behind the surface before it a point may be,
-/// and the farthest distance. Points that were denoised may be a few standard deviations off.
+/// The hull of a map that stands in for looks: its flip, how far behind a surface a point may be, and the
+/// farthest distance of a point.
 #[inline(never)]
-pub(crate) fn loosest_look(
+pub(crate) fn look_of_map(
     cloud: &PointCloud,
     survey: Option<&Survey>,
     viewpoint: [f64; 3],
-    count: usize,
     thickness: Option<f64>,
-    larger: f64,
+    apart: f64,
 ) -> Result<(Flip, f64, f64), Error> {
-    const DEVIATIONS: f64 = 4.0;
     check_viewpoint(viewpoint)?;
     let points = &cloud.sequence.points;
     let farthest = cloud.blocks.farthest_distance(points, viewpoint)?;
     let projection = Projection::Perspective(viewpoint);
     let tuning = Tuning::of(projection, cloud, survey, thickness, farthest)?;
-    let scale = larger * tuning.scales[place(count, count - 1)];
+    let scale = TIGHTER * apart * tuning.scales[2];
     let kernel = tuning.kernel(scale, farthest);
     let mut behind = tuning.thickness;
     if survey.is_some() && thickness.is_none() {
@@ -272,7 +276,7 @@ fn smooth(survey: &Option<Arc<Survey>>, thickness: Option<f64>) -> Option<&Smoot
 }
 
 /// The cloud at which the looks are.
-fn looked_at<'a>(
+pub(crate) fn looked_at<'a>(
     survey: &'a Option<Arc<Survey>>,
     thickness: Option<f64>,
     cloud: &'a PointCloud,

@@ -68,8 +68,7 @@ impl Verdicts {
                 push(&mut lengths, triangle.longest / triangle.size)?;
             }
         }
-        let usual = percentile(&lengths, PERCENTILE)?;
-        let longest = larger(LEAST, usual.map_or(0.0, |usual| LONGER * usual));
+        let longest = longest_of(&lengths)?;
         let wide = look.tuning.wide;
         Ok(if wide == 1.0 {
             longest
@@ -77,4 +76,11 @@ impl Verdicts {
             LEAST + (longest - LEAST) * wide
         })
     }
+}
+
+/// The longest edge that a triangle of a surface has, in local spacings. `lengths` are those of
+/// triangles that face the viewer.
+pub(crate) fn longest_of(lengths: &[f64]) -> Result<f64, OutOfMemory> {
+    let usual = percentile(lengths, PERCENTILE)?;
+    Ok(larger(LEAST, usual.map_or(0.0, |usual| LONGER * usual)))
 }

@@ -21,10 +21,10 @@ use crate::answers::visibility_map::hides::VisibilityMap;
 use crate::base::allocation::{OutOfMemory, filled};
 use crate::base::real::{larger, smaller, square_root};
 use crate::flip::inversion::Flip;
-use crate::hull::{Reaches, Window};
+use crate::hull::{Memory, Reaches, Window};
 
 /// Stands for a direction in which nothing is hidden.
-const NOWHERE: f32 = 1e30;
+pub(super) const NOWHERE: f32 = 1e30;
 /// The least distance in a map. Single precision may flush a smaller one to 0.
 const LEAST: f64 = 1e-30;
 /// The share of the least reach of a cell that its interpolation may lose.
@@ -35,32 +35,30 @@ const UP: f64 = 1.0 + 2.4e-7;
 const ROUNDING: f64 = 1e-12;
 
 impl VisibilityMap {
-    /// Writes the distances of these reaches, each with the thickness behind it.
+    /// Writes the distances of these reaches.
     pub(super) fn fill(
         &mut self,
         reaches: &Reaches,
+        hull: &Memory,
         flip: &Flip,
-        thickness: f64,
     ) -> Result<(), OutOfMemory> {
         let cell = 1.0 / reaches.cells_per_unit;
-        let mut lengths = filled(reaches.heights.len(), 0.0)?;
+        let mut lengths = filled(reaches.faces.len(), 0.0)?;
         let mut least = filled(lengths.len(), 0.0)?;
         let mut distances = filled(lengths.len(), NOWHERE)?;
-        for window in &reaches.windows {
-            each_corner(window, cell, &mut |place, squared| {
-                lengths[place] = square_root(squared) / reaches.heights[place] * (1.0 - ROUNDING);
+        for (side, window) in reaches.windows.iter().enumerate() {
+            each_corner(window, cell, &mut |place, at, squared| {
+                let height = hull.height(reaches.faces[place], side, at);
+                lengths[place] = square_root(squared) / height * (1.0 - ROUNDING);
                 least[place] = lengths[place];
             });
         }
         for window in &reaches.windows {
             lower(window, cell, &lengths, &mut least);
-            each_corner(window, cell, &mut |place, squared| {
+            each_corner(window, cell, &mut |place, _, squared| {
                 if least[place] > 0.0 {
                     let reach = least[place] * (1.0 - bulge(cell, squared));
-                    let distance = flip.distance_at(reach) + thickness;
-                    if distance < f64::from(NOWHERE) {
-                        distances[place] = (larger(distance, LEAST) * UP) as f32;
-                    }
+                    distances[place] = stored(flip.distance_at(reach));
                 }
             });
         }
@@ -68,15 +66,24 @@ impl VisibilityMap {
     }
 }
 
-/// Passes the index and the squared length of each corner (x, y, 1) of a window.
+/// A distance in single precision, at least as large.
+pub(super) fn stored(distance: f64) -> f32 {
+    if distance < f64::from(NOWHERE) {
+        (larger(distance, LEAST) * UP) as f32
+    } else {
+        NOWHERE
+    }
+}
+
+/// Passes the index, the place and the squared length of each corner (x, y, 1) of a window.
 #[inline(always)]
-fn each_corner(window: &Window, cell: f64, pass: &mut impl FnMut(usize, f64)) {
+pub(super) fn each_corner(window: &Window, cell: f64, pass: &mut impl FnMut(usize, [f64; 2], f64)) {
     let mut place = window.first;
     for row in 0..window.corners() / (window.columns + 1) {
         let y = window.y + row as f64 * cell;
         for column in 0..=window.columns {
             let x = window.x + column as f64 * cell;
-            pass(place, 1.0 + x * x + y * y);
+            pass(place, [x, y], 1.0 + x * x + y * y);
             place += 1;
         }
     }
@@ -92,31 +99,38 @@ fn bulge(cell: f64, squared: f64) -> f64 {
     0.125 * cell * cell * smaller(2.0, sum * grown)
 }
 
-/// For all corners of a window, lowers the reaches by what the cells around lose.
-fn lower(window: &Window, cell: f64, lengths: &[f64], least: &mut [f64]) {
+/// Passes the indices of the four corners of each cell of a window.
+#[inline(always)]
+pub(super) fn each_cell(window: &Window, pass: &mut impl FnMut([usize; 4])) {
     let across = window.columns + 1;
     for row in 0..window.rows {
         for column in 0..window.columns {
             let low = window.first + row * across + column;
-            let corners = [low, low + 1, low + across, low + across + 1];
-            let [mut m, mut above] = [f64::INFINITY, 0.0];
-            for corner in corners {
-                m = smaller(m, lengths[corner]);
-                above = larger(above, lengths[corner]);
-            }
-            // A cell with an unknown corner hides nothing.
-            if m > 0.0 {
-                let range = above - m;
-                let lost = range * (0.25 * range / m + 0.708 * cell) * (1.0 + 1e-12);
-                for corner in corners {
-                    let left = if lost < MOST_LOST * m {
-                        lengths[corner] - lost
-                    } else {
-                        m
-                    };
-                    least[corner] = smaller(least[corner], left);
-                }
-            }
+            pass([low, low + 1, low + across, low + across + 1]);
         }
     }
+}
+
+/// For all corners of a window, lowers the reaches by what the cells around lose.
+fn lower(window: &Window, cell: f64, lengths: &[f64], least: &mut [f64]) {
+    each_cell(window, &mut |corners| {
+        let [mut m, mut above] = [f64::INFINITY, 0.0];
+        for corner in corners {
+            m = smaller(m, lengths[corner]);
+            above = larger(above, lengths[corner]);
+        }
+        // A cell with an unknown corner hides nothing.
+        if m > 0.0 {
+            let range = above - m;
+            let lost = range * (0.25 * range / m + 0.708 * cell) * (1.0 + 1e-12);
+            for corner in corners {
+                let left = if lost < MOST_LOST * m {
+                    lengths[corner] - lost
+                } else {
+                    m
+                };
+                least[corner] = smaller(least[corner], left);
+            }
+        }
+    });
 }

@@ -4,17 +4,18 @@
 //! OUTPUT   for each corner of a grid of directions a distance; a point beyond it is hidden.
 //! SUMMARY  K of a sample lies inside K of all points. So what the sample's hull hides is hidden
 //!          for certain. The sample is taken from a pool: points that the last map hid hide
-//!          nothing (`pool`). The reaches of the hull become distances (`depths`), and one
-//!          comparison in single precision tests a point (`hides`).
+//!          nothing (`pool`). The reaches of the hull become distances (`depths`), or those of
+//!          its triangles where the map stands in for looks (`surface`). One comparison in
+//!          single precision tests a point (`hides`).
 
 mod depths;
 mod hides;
 pub(crate) mod kept;
 mod options;
 mod pool;
-mod tuned;
+mod surface;
 
-use crate::answers::looks::loosest_look;
+use crate::answers::looks::{look_of_map, looked_at};
 use crate::answers::memory::ViewMemory;
 use crate::base::error::Error;
 use crate::base::real::square_root;
@@ -30,6 +31,7 @@ pub use hides::VisibilityMap;
 use kept::MapMemory;
 pub use options::MapOptions;
 use pool::{FEW, Pool};
+use surface::Look;
 
 /// Distances in a map are between the first number and the last one, in the cloud's units.
 const UNITS: core::ops::Range<f64> = 1e-15..1e15;
@@ -51,8 +53,8 @@ impl PointCloud {
     /// cheap to ask for any number of points.
     ///
     /// It never hides a point that [`PointCloud::visible_from`] shows with the same options, except
-    /// with [`Inversion::Looks`](crate::Inversion::Looks): there it is tuned so that it hides hardly
-    /// any point that the looks show. It shows all visible points and some hidden ones. An
+    /// with [`Inversion::Looks`](crate::Inversion::Looks): there it hides hardly any point that the looks
+    /// show. It shows all visible points and some hidden ones. An
     /// [`Observer`](crate::Observer) makes better maps from the last one.
     ///
     /// # Errors
@@ -94,20 +96,10 @@ impl PointCloud {
             origin,
             moved,
         };
-        let larger = match looks(options)? {
-            Some(count) => part.tuned(memory, &asked, count)?,
-            None => 1.0,
-        };
-        part.mapped(memory, &asked, larger)
+        part.mapped(memory, &asked)
     }
 
-    /// One map. With looks, the scale of the last one is `larger` by this factor.
-    fn mapped(
-        &self,
-        memory: &mut ViewMemory,
-        asked: &Asked,
-        larger: f64,
-    ) -> Result<VisibilityMap, Error> {
+    fn mapped(&self, memory: &mut ViewMemory, asked: &Asked) -> Result<VisibilityMap, Error> {
         let &Asked {
             viewpoint,
             options,
@@ -115,33 +107,43 @@ impl PointCloud {
             origin,
             moved,
         } = asked;
-        let (flip, thickness, farthest) = match looks(options)? {
-            None => {
-                let view = self.view(viewpoint, options)?;
-                (view.flip, 0.0, view.farthest)
-            }
-            Some(count) => {
-                let thickness = options.thickness;
-                let survey = memory.survey(self, thickness)?;
-                loosest_look(self, survey.as_deref(), viewpoint, count, thickness, larger)?
-            }
+        let is_look = looks(options)?.is_some();
+        let mut survey = None;
+        if is_look {
+            survey = memory.survey(self, options.thickness)?;
+        }
+        let source = looked_at(&survey, options.thickness, self);
+        let MapMemory { hull, pool, last } = &mut memory.maps;
+        let is_smooth = !core::ptr::eq(source, self);
+        let pool = Pool::of(pool, &source.sequence.points, is_smooth, map)?;
+        let chosen = pool.choose(viewpoint, map, is_look, last.as_ref())?;
+        let (flip, thickness, farthest) = if is_look {
+            let apart = square_root(pool.stands_for());
+            look_of_map(self, survey.as_deref(), viewpoint, options.thickness, apart)?
+        } else {
+            let view = self.view(viewpoint, options)?;
+            (view.flip, 0.0, view.farthest)
         };
         let mut made = VisibilityMap::empty(viewpoint, origin, moved);
         let reach = farthest + made.distance_of_origin();
         if !UNITS.contains(&farthest) || reach > UNITS.end {
             return Ok(made);
         }
-        let MapMemory {
-            hull, pool, last, ..
-        } = &mut memory.maps;
-        let pool = Pool::of(pool, &self.sequence.points, map)?;
-        let chosen = pool.choose(viewpoint, map, options.asks_for_looks(), last.as_ref())?;
         let flip = flip.rescaled_for(&chosen);
         hull::mark_all(&chosen, &flip, hull)?;
         pool.mark(hull.visible());
         let corners = map.corners.min(CORNERS * chosen.len().max(FEW as usize));
-        if let Some(reaches) = hull.reaches(corners)? {
-            made.fill(&reaches, &flip, thickness)?;
+        if is_look {
+            let look = Look {
+                hull,
+                points: &chosen,
+                flip: &flip,
+                farthest,
+                thickness,
+            };
+            made.fill_by_surface(look, corners)?;
+        } else if let Some(reaches) = hull.reaches(corners)? {
+            made.fill(&reaches, hull, &flip)?;
         }
         *last = Some(made.clone());
         Ok(made)

@@ -32,6 +32,8 @@ const WIDER: f64 = 1.1;
 pub(super) struct Pool {
     /// As it was asked for.
     size: usize,
+    /// Whether its points were moved to where they would be without noise.
+    is_smooth: bool,
     /// How many points the cloud has.
     all: usize,
     points: Points,
@@ -40,6 +42,8 @@ pub(super) struct Pool {
     /// The points of the last map.
     chosen: Vec<u32>,
     turn: usize,
+    /// How many points of the cloud a chosen one stands for.
+    stands_for: f64,
 }
 
 impl Pool {
@@ -47,23 +51,27 @@ impl Pool {
     pub(super) fn of<'a>(
         kept: &'a mut Option<Self>,
         points: &Points,
+        is_smooth: bool,
         map: &MapOptions,
     ) -> Result<&'a mut Self, OutOfMemory> {
         let size = map
             .points
             .saturating_mul(TIMES[usize::from(map.towards.is_some())]);
-        let new = match kept.take().filter(|pool| pool.size == size) {
+        let is_same = |pool: &Self| pool.size == size && pool.is_smooth == is_smooth;
+        let new = match kept.take().filter(is_same) {
             Some(pool) => pool,
             None => {
                 let all = points.len();
                 let points = points.gathered(&even_places(all, size.min(all))?)?;
                 Self {
                     size,
+                    is_smooth,
                     all,
                     is_hidden: filled(points.len(), false)?,
                     points,
                     chosen: Vec::new(),
                     turn: 0,
+                    stands_for: 1.0,
                 }
             }
         };
@@ -115,6 +123,7 @@ impl Pool {
                 before != after
             });
         }
+        self.stands_for = visible as f64 / self.chosen.len().max(1) as f64;
         self.points.gathered(&self.chosen)
     }
 
@@ -138,6 +147,10 @@ impl Pool {
             }
         }
         (tested, new)
+    }
+
+    pub(super) fn stands_for(&self) -> f64 {
+        self.stands_for
     }
 
     /// Marks the chosen points that their own hull hides.

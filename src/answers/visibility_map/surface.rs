@@ -1,0 +1,133 @@
+//! From the triangles of a hull to distances, for maps that stand in for looks.
+//!
+//! Looks show points that no single hull shows, so what certainly hides for one hull may hide them. A map of
+//! looks decides as looks do, with wider margins, since it has fewer points: a point is hidden that lies
+//! farther behind the triangle before it, back in its place, than the triangle's longest edge allows. This
+//! is not proved. On 42 scans, simulated scans and clean clouds a map hides at most 1 % of what looks
+//! show.
+
+use alloc::vec::Vec;
+use glam::DVec3;
+
+use crate::answers::looks::{Corners, Triangle, longest_of};
+use crate::answers::visibility_map::depths::{NOWHERE, each_cell, each_corner, stored};
+use crate::answers::visibility_map::hides::VisibilityMap;
+use crate::base::allocation::{OutOfMemory, filled, with_capacity};
+use crate::base::error::Error;
+use crate::base::real::square_root;
+use crate::cloud::points::Points;
+use crate::flip::inversion::Flip;
+use crate::hull::{Memory, Reaches, direction};
+
+/// How many longest edges behind it a triangle hides a point: one that is surface, and another one.
+const BEHIND: [f64; 2] = [1.0, 2.0];
+/// The triangles along one in so many corners tell how long those of a surface are.
+const SAMPLE: usize = 16;
+/// Where the distances of a cell differ by more than this share of the least, one surface ends before another
+/// one. Then an interpolation would hide points of the farther one.
+const STEP: f32 = 0.5;
+
+/// The hull of a map, and how far behind a surface a point may be besides.
+pub(super) struct Look<'a> {
+    pub hull: &'a mut Memory,
+    pub points: &'a Points,
+    pub flip: &'a Flip,
+    pub farthest: f64,
+    pub thickness: f64,
+}
+
+impl VisibilityMap {
+    /// Writes the distances behind the triangles of a look.
+    pub(super) fn fill_by_surface(&mut self, look: Look, count: usize) -> Result<(), Error> {
+        let Look {
+            hull,
+            points,
+            flip,
+            farthest,
+            thickness,
+        } = look;
+        let place = |own: u32| DVec3::from_array(points.get(own as usize)) - flip.viewpoint();
+        let Some(faces) = hull.outer_faces(points, flip, farthest)? else {
+            return Ok(());
+        };
+        let corners = Corners::of(&faces, &place, &|_| f64::INFINITY)?;
+        let Some(reaches) = hull.reaches(count)? else {
+            return Ok(());
+        };
+        let mut lengths = with_capacity(reaches.faces.len().div_ceil(SAMPLE))?;
+        each_triangle(
+            hull,
+            &reaches,
+            &corners,
+            SAMPLE,
+            &mut |_, ahead, triangle| {
+                if triangle.is_facing(ahead, None) {
+                    lengths.push(triangle.longest / triangle.size);
+                }
+            },
+        );
+        let longest = longest_of(&lengths)?;
+        let mut distances = filled(reaches.faces.len(), NOWHERE)?;
+        each_triangle(
+            hull,
+            &reaches,
+            &corners,
+            1,
+            &mut |place, ahead, triangle| {
+                let before = triangle.crossing(ahead) * square_root(ahead.length_squared());
+                let is_surface = triangle.longest <= longest * triangle.size;
+                let behind = BEHIND[usize::from(!is_surface)] * triangle.longest + thickness;
+                if before > 0.0 {
+                    distances[place] = stored(before + behind);
+                }
+            },
+        );
+        self.set(&reaches, &raised(&reaches, &distances)?)?;
+        Ok(())
+    }
+}
+
+/// The distances, where the corners of a cell with a step take its largest one.
+fn raised(reaches: &Reaches, distances: &[f32]) -> Result<Vec<f32>, OutOfMemory> {
+    let mut raised = filled(distances.len(), 0.0)?;
+    raised.copy_from_slice(distances);
+    for window in &reaches.windows {
+        each_cell(window, &mut |corners| {
+            let [mut least, mut most] = [NOWHERE, 0.0f32];
+            for corner in corners {
+                least = least.min(distances[corner]);
+                most = most.max(distances[corner]);
+            }
+            if most < NOWHERE && most - least > STEP * least {
+                for corner in corners {
+                    raised[corner] = raised[corner].max(most);
+                }
+            }
+        });
+    }
+    Ok(raised)
+}
+
+/// Passes the triangle along every `step`th corner, the corner's index and its direction.
+fn each_triangle(
+    hull: &Memory,
+    reaches: &Reaches,
+    corners: &Corners,
+    step: usize,
+    pass: &mut dyn FnMut(usize, DVec3, Triangle),
+) {
+    let cell = 1.0 / reaches.cells_per_unit;
+    for (side, window) in reaches.windows.iter().enumerate() {
+        each_corner(window, cell, &mut |place, [x, y], _| {
+            if place % step == 0
+                && let Some(vertices) = hull.corners(reaches.faces[place])
+            {
+                pass(
+                    place,
+                    direction(side, x, y),
+                    Triangle::of(vertices, corners),
+                );
+            }
+        });
+    }
+}
