@@ -1,14 +1,6 @@
 // Maps of directions on a graphics card: the shaders' text, and the filters that draw by it.
-import type { Browser, Page } from "playwright-core";
-import { afterAll, beforeAll, describe, expect, it } from "vitest";
-import { serveModules } from "./modules.js";
-import { launchBrowser } from "./site.js";
-
-let browser: Browser;
-let page: Page;
-let close: () => void;
-const errors: string[] = [];
-const said: string[] = [];
+import { beforeAll, describe, expect, it } from "vitest";
+import { modulesPage } from "./modules-page.js";
 
 interface Modules {
   three: typeof import("three");
@@ -17,24 +9,15 @@ interface Modules {
   "hidden-point-removal/nodes": typeof import("hidden-point-removal/nodes");
 }
 
+const shared = modulesPage({
+  three: "/node_modules/three/build/three.module.js",
+  "hidden-point-removal": "/dist/index.js",
+  "hidden-point-removal/three": "/dist/three.js",
+  "hidden-point-removal/nodes": "/dist/nodes.js",
+});
+
 beforeAll(async () => {
-  browser = await launchBrowser("--enable-unsafe-webgpu", "--use-webgpu-adapter=swiftshader");
-  const site = await serveModules({
-    three: "/node_modules/three/build/three.module.js",
-    "hidden-point-removal": "/dist/index.js",
-    "hidden-point-removal/three": "/dist/three.js",
-    "hidden-point-removal/nodes": "/dist/nodes.js",
-  });
-  close = site.close;
-  page = await browser.newPage({ viewport: { width: 400, height: 400 } });
-  page.on("pageerror", (error) => errors.push(String(error)));
-  page.on("console", (message) => {
-    if (message.type() === "error") errors.push(message.text());
-    if (message.text().startsWith("hidden-point-removal")) said.push(message.text());
-  });
-  await page.goto(site.address);
-  await page.waitForFunction(() => "modules" in globalThis);
-  await page.evaluate(async () => {
+  await shared.page.evaluate(async () => {
     const { modules } = globalThis as unknown as { modules: Modules };
     await modules["hidden-point-removal"].init();
     /** A bumpy ball somewhere, in single precision. */
@@ -52,12 +35,6 @@ beforeAll(async () => {
   });
 });
 
-afterAll(async () => {
-  await browser.close();
-  close();
-  expect(errors).toEqual([]);
-});
-
 declare const ball: (count: number, place?: number[]) => Float32Array<ArrayBuffer>;
 declare const modules: Modules;
 
@@ -70,7 +47,7 @@ interface Compared {
 
 describe("the shader's text", () => {
   it("tests points as `hides` does, in WebGL", async () => {
-    const found = await page.evaluate(() => {
+    const found = await shared.page.evaluate(() => {
       const { PointCloud } = modules["hidden-point-removal"];
       const gl = document.createElement("canvas").getContext("webgl2")!;
       const compared: Compared[] = [];
@@ -141,7 +118,7 @@ describe("the shader's text", () => {
   });
 
   it("tests points as `hides` does, in WebGPU", async (test) => {
-    const found = await page.evaluate(async () => {
+    const found = await shared.page.evaluate(async () => {
       // Old browsers have none.
       const gpu = navigator.gpu as GPU | undefined;
       const adapter = await gpu?.requestAdapter();
@@ -242,7 +219,7 @@ describe("the shader's text", () => {
 
 describe("a filter", () => {
   it("draws and picks by a map while the camera moves, and leaves everything as it was", async () => {
-    const found = await page.evaluate(async () => {
+    const found = await shared.page.evaluate(async () => {
       const THREE = modules.three;
       const { PointCloud } = modules["hidden-point-removal"];
       const { HiddenPointFilter } = modules["hidden-point-removal/three"];
@@ -416,7 +393,7 @@ describe("a filter", () => {
   });
 
   it("goes on with materials that others patch, dims, and says where drafts stand in", async () => {
-    const found = await page.evaluate(async () => {
+    const found = await shared.page.evaluate(async () => {
       const THREE = modules.three;
       const { HiddenPointFilter } = modules["hidden-point-removal/three"];
       const renderer = new THREE.WebGLRenderer({ preserveDrawingBuffer: true });
@@ -523,11 +500,11 @@ describe("a filter", () => {
       expect(seen).not.toContain("draft");
     }
     for (const { seen } of [several, vote, draft]) expect(seen).not.toContain("map");
-    expect(said.filter((text) => text.includes("drafts are drawn"))).toHaveLength(1);
+    expect(shared.said.filter((text) => text.includes("drafts are drawn"))).toHaveLength(1);
   });
 
   it("draws by the map again when a lost context has come back", async () => {
-    const found = await page.evaluate(async () => {
+    const found = await shared.page.evaluate(async () => {
       const THREE = modules.three;
       const { HiddenPointFilter } = modules["hidden-point-removal/three"];
       const renderer = new THREE.WebGLRenderer({ preserveDrawingBuffer: true });

@@ -1,13 +1,6 @@
 // The filters for three's WebGPU renderer, on both of its backends: what is drawn, read from pixels.
-import type { Browser, Page } from "playwright-core";
-import { afterAll, beforeAll, expect, it } from "vitest";
-import { serveModules } from "./modules.js";
-import { launchBrowser } from "./site.js";
-
-let browser: Browser;
-let page: Page;
-let close: () => void;
-const errors: string[] = [];
+import { afterAll, expect, it } from "vitest";
+import { modulesPage } from "./modules-page.js";
 
 interface Modules {
   "three/webgpu": typeof import("three/webgpu");
@@ -17,36 +10,23 @@ interface Modules {
 
 declare const modules: Modules;
 
-beforeAll(async () => {
-  browser = await launchBrowser("--enable-unsafe-webgpu", "--use-webgpu-adapter=swiftshader");
-  const site = await serveModules({
-    three: "/node_modules/three/build/three.module.js",
-    "three/webgpu": "/node_modules/three/build/three.webgpu.js",
-    "three/tsl": "/node_modules/three/build/three.tsl.js",
-    "hidden-point-removal": "/dist/index.js",
-    "hidden-point-removal/three/webgpu": "/dist/three-webgpu.js",
-  });
-  close = site.close;
-  page = await browser.newPage({ viewport: { width: 400, height: 400 } });
-  page.on("pageerror", (error) => errors.push(String(error)));
-  page.on("console", (message) => {
-    if (message.type() === "error" || message.text().startsWith("hidden-point-removal")) errors.push(message.text());
-  });
-  await page.goto(site.address);
-  await page.waitForFunction(() => "modules" in globalThis);
+const shared = modulesPage({
+  three: "/node_modules/three/build/three.module.js",
+  "three/webgpu": "/node_modules/three/build/three.webgpu.js",
+  "three/tsl": "/node_modules/three/build/three.tsl.js",
+  "hidden-point-removal": "/dist/index.js",
+  "hidden-point-removal/three/webgpu": "/dist/three-webgpu.js",
 });
 
-afterAll(async () => {
-  await browser.close();
-  close();
-  expect(errors).toEqual([]);
+afterAll(() => {
+  expect(shared.said).toEqual([]);
 });
 
 it.each([
   ["WebGPU", false],
   ["WebGL 2", true],
 ] as const)("draw by maps while the camera moves, with %s", async (_, forceWebGL) => {
-  const found = await page.evaluate(async (forceWebGL) => {
+  const found = await shared.page.evaluate(async (forceWebGL) => {
     const THREE = modules["three/webgpu"];
     const { HiddenPointFilter, HiddenPointNodesFilter } = modules["hidden-point-removal/three/webgpu"];
     const { init, PointCloud } = modules["hidden-point-removal"];

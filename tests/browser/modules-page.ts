@@ -1,0 +1,34 @@
+import type { Browser, Page } from "playwright-core";
+import { afterAll, beforeAll, expect } from "vitest";
+import { serveModules } from "./modules.js";
+import { launchBrowser } from "./site.js";
+
+/** A page with these modules for all tests of a file, with WebGPU where the browser has it. None may log an error. */
+export function modulesPage(imports: Record<string, string>): { page: Page; said: string[] } {
+  let browser: Browser;
+  let close: () => void;
+  const errors: string[] = [];
+  // The page comes before the first test.
+  const shared = { page: undefined as unknown as Page, said: [] as string[] };
+
+  beforeAll(async () => {
+    browser = await launchBrowser("--enable-unsafe-webgpu", "--use-webgpu-adapter=swiftshader");
+    const site = await serveModules(imports);
+    close = site.close;
+    shared.page = await browser.newPage({ viewport: { width: 400, height: 400 } });
+    shared.page.on("pageerror", (error) => errors.push(String(error)));
+    shared.page.on("console", (message) => {
+      if (message.type() === "error") errors.push(message.text());
+      if (message.text().startsWith("hidden-point-removal")) shared.said.push(message.text());
+    });
+    await shared.page.goto(site.address);
+    await shared.page.waitForFunction(() => "modules" in globalThis);
+  });
+
+  afterAll(async () => {
+    await browser.close();
+    close();
+    expect(errors).toEqual([]);
+  });
+  return shared;
+}
