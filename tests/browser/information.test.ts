@@ -1,5 +1,4 @@
 import { expect, test } from "vitest";
-import { groundDensity } from "../../www/tools/information/ground.js";
 import { lengthText, roundLength } from "../../www/tools/information/scale-bar.js";
 import { asciiPly, ball, georeferencedBall } from "./clouds.js";
 import { las } from "./formats.js";
@@ -22,22 +21,6 @@ async function information(page: Page): Promise<Record<string, string>> {
   );
 }
 
-/** A field of points, one for each square unit, in the left half of a box. Two points in the right half. */
-function halfField(): Float64Array {
-  const places: number[] = [];
-  for (let x = 0; x < 100; x++) for (let y = 0; y < 200; y++) places.push(x + 0.5, y + 0.5, (x * y) % 7);
-  places.push(200, 0, 0, 200, 200, 0);
-  return Float64Array.from(places);
-}
-
-test("the density of the ground counts only the ground that has points", () => {
-  // In the whole box it would be 0.5.
-  expect(groundDensity(halfField())).toBeGreaterThan(0.88);
-  expect(groundDensity(halfField())).toBeLessThan(1.05);
-  expect(groundDensity(Float64Array.of(1, 2, 3))).toBeNull();
-  expect(groundDensity(Float64Array.of(0, 0, 0, 1, 0, 0, 2, 0, 5))).toBeNull();
-});
-
 test("the length of the scale bar is 1, 2 or 5 times a power of ten, with a fitting unit", () => {
   expect([0.0123, 1, 1.99, 2, 4.9, 7, 10, 5e8].map(roundLength)).toEqual([0.01, 1, 1, 2, 2, 5, 10, 5e8]);
   const meter = { name: "m", meters: 1 };
@@ -57,7 +40,6 @@ test("the information of a LAS file: extents with its digits, spacing, coordinat
   expect(rows).toMatchObject({ File: "map.las", Points: "600", Coordinates: "WGS 84 / UTM zone 32N" });
   expect(rows["x"]).toMatch(/^5123\d\d\.\d{3} to 5123\d\d\.\d{3}$/);
   expect(rows["Size"]).toMatch(/^[\d.]+ × [\d.]+ × [\d.]+\sm$/);
-  expect(rows["Density"]).toMatch(/^\d+ per m²$/);
   expect(rows["Spacing"]).toMatch(/^0\.\d+\sm$/);
   expect(rows["classification"]).toBe("ground, high vegetation, building");
   expect(rows["intensity"]).toMatch(/^\d+ to \d+$/);
@@ -69,7 +51,6 @@ test("a file without a coordinate system says so, and its lengths have no unit",
   const rows = await information(page);
   expect(rows).toMatchObject({ File: "ball.ply", Coordinates: "The file names no system" });
   expect(rows["Size"]).toMatch(/units$/);
-  expect(rows["Density"]).toBeUndefined();
 
   // Another cloud has other information.
   await page.locator("#sample").selectOption("rings");

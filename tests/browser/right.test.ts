@@ -179,7 +179,7 @@ test("How right is it? has the errors of one hull and of looks against rays, als
   expect(await page.locator("#right .best th").textContent()).toMatch(/^Three looks/);
   expect(await page.locator("#right canvas").count()).toBe(3);
   await page.keyboard.press("Escape");
-  expect(await page.locator("#right").count()).toBe(0);
+  await expect.poll(() => page.locator("#right").count()).toBe(0);
 
   const obj = [
     ...corners.map((corner) => `v ${Array.from(Float32Array.from(corner)).join(" ")}`),

@@ -69,7 +69,7 @@ function byStations(verdicts: readonly StationVerdict[], count: number): Node[] 
     make("p", {}, `${whose} the points that they have measured. A method that hides one of them is wrong.`),
     tableOf(
       ["Method", "Own points missed", "Of all points, shown"],
-      verdicts.map(({ method, missed, shown }) => ({ method, shares: [missed, shown], error: missed })),
+      verdicts.map(({ method, missed, shown }) => ({ method, shares: [missed, shown] })),
     ),
     make("p", { class: "note" }, "What a method shows wrongly, a scan cannot tell: one that shows more misses less."),
   ];
@@ -105,12 +105,12 @@ function judgment(judged: Judged): Node[] {
   return [words, table, make("div", { class: "pictures" }, ...pictures)];
 }
 
-/** A table of shares. The row with the smallest error stands out. */
+/** A table of shares. The row with the smallest error stands out, if errors are known. */
 function tableOf(
   heads: readonly string[],
-  rows: readonly { method: string; shares: number[]; error: number }[],
+  rows: readonly { method: string; shares: number[]; error?: number }[],
 ): HTMLTableElement {
-  const best = Math.min(...rows.map(({ error }) => error));
+  const best = Math.min(...rows.map(({ error = 1 }) => error));
   const head = make("tr", {}, ...heads.map((text) => make("th", { scope: "col" }, text)));
   const body = rows.map(({ method, shares, error }) => {
     const row = tableRow(method, ...shares.map(percent));

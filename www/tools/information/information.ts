@@ -4,7 +4,6 @@ import { byId } from "../../controls/dom.ts";
 import { fieldText, measured, measuresOf, type Placed, shortest } from "../figures.ts";
 import { row } from "../pick.ts";
 import type { Bench } from "../tool.ts";
-import { groundDensity } from "./ground.ts";
 
 /** A category with more values than this is counted. With less, its values are named. */
 const MOST_NAMED = 6;
@@ -57,21 +56,13 @@ export class Information {
   /** Rows with lengths. Degrees of longitude and latitude have none. */
   #lengths(): [name: string, value: string][] {
     const { scene } = this.#bench.viewer;
-    const { cloud, positions, inquiry, answer } = scene;
+    const { cloud, inquiry, answer } = scene;
     const { unit, scale } = measuresOf(cloud);
     const isOneUnit = scale.every((length) => length === 1);
     const size = cloud.size.map((length, axis) => measured(length * scale[axis]!, null).split("\u00a0")[0]!);
     const rows: [string, string][] = [["Size", `${size.join(" × ")}\u00a0${unit?.name ?? "units"}`]];
     // Of an octree, only the coarser levels are here.
     if (answer.whole) return rows;
-    const density = this.#bench.upward()[2] === 1 ? groundDensity(positions) : null;
-    if (density !== null) {
-      const perArea = density / (scale[0] * scale[1]);
-      rows.push([
-        "Density",
-        `${number.format(Number(perArea.toPrecision(2)))} per ${unit ? `${unit.name}²` : "square unit"}`,
-      ]);
-    }
     const { spacing } = inquiry.cloud.points;
     if (spacing > 0 && isOneUnit) rows.push(["Spacing", measured(Number(spacing.toPrecision(3)), unit)]);
     return rows;

@@ -6,8 +6,9 @@ const SVG = "http://www.w3.org/2000/svg";
 /** The longest bar in CSS pixels, and its distance from the edge of the picture. */
 const LONGEST = 120;
 const EDGE = 20;
-/** In narrower windows the tools are along the whole lower edge, so the bar is at the upper one. */
+/** In narrower windows the tools are along the whole lower edge, so the bar is at the upper one, below its button. */
 const NARROW = 760;
+const BELOW_BUTTON = 84;
 
 /** A bar of a round length in the picture, as things look at the distance of the place that the camera turns around. */
 export class ScaleBar {
@@ -49,7 +50,7 @@ export class ScaleBar {
     // In a frame of another page, a link is at the right, and signs are at the top.
     const isEmbedded = document.body.classList.contains("embedded");
     const right = isEmbedded ? EDGE + width : size.width - EDGE;
-    const bottom = innerWidth <= NARROW && !isEmbedded ? EDGE + 24 : size.height - EDGE;
+    const bottom = innerWidth <= NARROW && !isEmbedded ? EDGE + BELOW_BUTTON : size.height - EDGE;
     for (const line of this.#lines) line.setAttribute("d", `M${right - width} ${bottom - 6}v6h${width}v-6`);
     this.#text.textContent = lengthText(length, unit);
     this.#text.setAttribute("x", String(right - width / 2));
