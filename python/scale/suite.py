@@ -164,7 +164,8 @@ def kill_workers(report, folder):
             answers = visible_from_tiles(paths, viewpoints, client=client, cache=False)
             killer.end()
         same = [answer.tobytes() for answer in answers] == expected
-        report.say(f"- SIGKILL in `{kernel}` ({killer.hit or 'not hit'}): {'the same bytes' if same else 'OTHER BYTES'}")
+        said = "not hit" if killer.hit is None else "the same bytes" if same else "OTHER BYTES"
+        report.say(f"- SIGKILL in `{kernel}`: {said}")
         report.check(same and killer.hit is not None, f"killed in {kernel}")
     report.say()
 
