@@ -1,5 +1,18 @@
 //! A closed triangulated surface as indices. This file uses no coordinates. The caller
 //! decides which data a face carries besides its indices.
+//!
+//! A face has three vertices, counter-clockwise from outside, and three *twins*: `twins[k]` is the half-edge that runs
+//! the other way along edge k. A face that is removed has no first vertex, and its place is used again.
+//!
+//! ```text
+//!          c
+//!        ╱   ╲             face 7:  vertices [a, b, c], twins [12 << 2 | 1, …, …]    its edge 0 runs from a to b
+//!      ╱   7   ╲           face 12: vertices [e, b, a], twins […, 7 << 2 | 0, …]     its edge 1 runs from b to a
+//!    a ───────── b
+//!      ╲  12   ╱           across edge k: twins[k]; around a vertex: the twin, then its next edge, and again
+//!        ╲   ╱
+//!          e
+//! ```
 
 use crate::base::allocation::{OutOfMemory, push, reserve};
 use alloc::vec::Vec;
