@@ -20,7 +20,7 @@ struct Map {
 }
 
 /// A map of directions around (x, y, z). `map` holds the numbers of points and of corners, a direction
-/// and its angle, and an origin. An angle of 0 stands for all directions, and an origin of infinity
+/// and its angle, and an origin. A number of 0 stands for the default, an angle of 0 stands for all directions, and an origin of infinity
 /// for none.
 #[wasm_bindgen(js_name = visibilityMap, unchecked_return_type = "MapAnswer")]
 pub fn visibility_map(
@@ -36,13 +36,15 @@ pub fn visibility_map(
     let mut numbers = [0.0; 9];
     map.copy_to(&mut numbers);
     let [points, corners, a, b, c, angle, origin @ ..] = numbers;
-    let choices = MapOptions {
-        points: points as usize,
-        corners: corners as usize,
-        towards: (angle != 0.0).then_some(([a, b, c], angle)),
-        origin: Some(origin).filter(|origin| origin[0] != f64::INFINITY),
-    };
     let made = with_view(handle, Some([x, y, z]), options, &view, |cloud| {
+        let usual = MapOptions::for_points(cloud.len());
+        let size = |given: f64, usual| if given == 0.0 { usual } else { given as usize };
+        let choices = MapOptions {
+            points: size(points, usual.points),
+            corners: size(corners, usual.corners),
+            towards: (angle != 0.0).then_some(([a, b, c], angle)),
+            origin: Some(origin).filter(|origin| origin[0] != f64::INFINITY),
+        };
         with_memory(handle, masked, |memory| {
             let made = cloud.visibility_map_with(memory, [x, y, z], &view, &choices)?;
             Ok(Map {

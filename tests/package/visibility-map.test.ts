@@ -29,6 +29,15 @@ it("hides hidden points only, and most of them", () => {
   expect(map.hides([0, 0, 0, 3, 1, 2, NaN, 0, 0, Infinity, 0, 0])).toEqual(Uint8Array.of(1, 0, 0, 0));
 });
 
+it("is finer for a large cloud", () => {
+  const large = new PointCloud(bumpySphere(3, 2_000_000));
+  const lengths = [large, cloud].map((of) => of.visibilityMap(viewpoint, { exponent: 3 }).data.length);
+  large.dispose();
+  expect(Math.min(...lengths)).toBeGreaterThan(30_000);
+  expect(Math.max(...lengths)).toBe(lengths[0]);
+  expect(lengths[0]).toBeGreaterThan(100_000);
+});
+
 it("has the same test in the core", () => {
   const wide = Float64Array.from(positions, (x, i) => x + [452_000, 5_411_000, 300][i % 3]!);
   const far = new PointCloud(wide);

@@ -16,9 +16,9 @@ export interface Cone {
  * How a map of directions is made. `draft`, `scores`, `vote` and a radius that is searched are refused.
  */
 export interface VisibilityMapOptions extends VisibilityOptions {
-  /** How many points the map's hull has at most: an integer of at least 16. Default 32,768. */
+  /** How many points the map's hull has at most: an integer of at least 16. Default 32,768; 49,152 for 2 million points or more. */
   points?: number | undefined;
-  /** How many directions the map has at most: an integer from 64 to 4,194,304. Default 65,536. */
+  /** How many directions the map has at most: an integer from 64 to 4,194,304. Default 65,536, or 131,072. */
   corners?: number | undefined;
   /** The only directions that get points and corners: those of a camera, or a cone. Default: all. */
   towards?: Camera | Cone | undefined;
@@ -33,8 +33,8 @@ export const MAP_OPTIONS = [...VIEW_OPTIONS, "points", "corners", "towards", "or
 
 /** The choices in the order in which the core reads them (src/wasm/maps.rs). */
 export function mapNumbers(given: Record<string, unknown>): Float64Array<ArrayBuffer> {
-  const points = integer(given, "points", 16, MOST_POINTS) ?? 32_768;
-  const corners = integer(given, "corners", 64, 4_194_304) ?? 65_536;
+  const points = integer(given, "points", 16, MOST_POINTS) ?? 0;
+  const corners = integer(given, "corners", 64, 4_194_304) ?? 0;
   const { towards, origin } = given;
   const cone =
     towards === undefined ? [0, 0, 0, 0] : isCamera(towards) ? coneOf(readCamera(towards)) : readCone(towards);
