@@ -56,8 +56,6 @@ export async function poorContrast(page: Page): Promise<string[]> {
       ) {
         continue;
       }
-      // The canvas is empty until there is a cloud.
-      if (element.id === "loading-sign") continue;
       const style = getComputedStyle(element);
       const svg = element instanceof SVGElement;
       const edge = svg && style.stroke !== "none" ? [parse(style.stroke)] : null;

@@ -161,7 +161,7 @@ test("a click between a move and the next frame finds the point that this frame 
   expect(await picked()).toBe(first);
 });
 
-test("the points of a file are drawn before the first answer, and its name and the progress are over them", async () => {
+test("the points of a file are drawn before the first answer, and the status has its name and the progress", async () => {
   served.set("clouds/early.ply", asciiPly(ball(40_000)));
   const page = await openPage("?src=clouds/early.ply&theme=dark", {}, async (fresh) => {
     await holdable(fresh);
@@ -169,8 +169,7 @@ test("the points of a file are drawn before the first answer, and its name and t
       (globalThis as unknown as { hold: (from: number) => void }).hold(0);
     });
   });
-  const sign = page.locator("#loading-sign");
-  await expect.poll(() => sign.textContent()).toMatch(/^Preparing early\.ply: \d+\s%\.$/);
+  await expect.poll(() => page.locator("#status").textContent()).toMatch(/^Preparing early\.ply: \d+\s%\.$/);
   const early = await picture(page);
   expect((await status(page)).state).toBe("loading");
   const { width, height } = await page.evaluate(() => ({ width: innerWidth, height: innerHeight }));
@@ -178,7 +177,6 @@ test("the points of a file are drawn before the first answer, and its name and t
   await release(page);
   await reached(page, "ready");
   await upToDate(page);
-  expect(await sign.isVisible()).toBe(false);
   expect(await empty(page, await picture(page))).toBeLessThan(0.22 * width * height);
 });
 

@@ -86,13 +86,8 @@ export function isSlow(method: Method): boolean {
 }
 
 /** Whether the choice of the radius takes many hulls. */
-export function isSearched(method: Method): boolean {
-  return method.radius !== null && "rule" in method.radius && !isAutomatic(method);
-}
-
-/** Whether the answer's own exponent is the automatic one. */
-export function isAutomatic({ radius }: Method): boolean {
-  return radius !== null && "rule" in radius && radius.rule === "auto";
+export function isSearched({ radius }: Method): boolean {
+  return radius !== null && "rule" in radius && radius.rule !== "auto";
 }
 
 /**

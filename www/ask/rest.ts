@@ -14,11 +14,6 @@ export class Rest {
   }
 
   get isReached(): boolean {
-    return this.remaining <= 0;
-  }
-
-  /** The milliseconds until it is at rest. At most 0 if it is at rest already. */
-  get remaining(): number {
-    return this.#movedAt + this.#milliseconds - performance.now();
+    return performance.now() >= this.#movedAt + this.#milliseconds;
   }
 }

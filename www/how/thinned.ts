@@ -22,7 +22,6 @@ export class Thinned {
   readonly distances: Float32Array;
   readonly count: number;
   readonly farthest: number;
-  readonly nearest: number;
   /** The exponent of the automatic radius. */
   readonly automatic: number;
   readonly #points: WorkerPointCloud;
@@ -39,7 +38,6 @@ export class Thinned {
       this.distances[i] = Math.hypot(positions[3 * i]!, positions[3 * i + 1]!, positions[3 * i + 2]!);
     }
     this.farthest = this.distances.reduce((a, b) => Math.max(a, b), 0);
-    this.nearest = this.distances.reduce((a, b) => Math.min(a, b), Infinity);
   }
 
   static async of({ local, count, center }: Cloud, viewpoint: Viewpoint): Promise<Thinned> {

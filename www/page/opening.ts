@@ -2,7 +2,6 @@ import { nextFrame } from "../controls/dom.ts";
 import { LoadProblem, type ReadOptions } from "../loaders/index.ts";
 import { keepForOffline } from "../offline/keep.ts";
 import { openCloud } from "../open/open-cloud.ts";
-import { LoadingSign } from "../panel/loading-sign.ts";
 import type { Message } from "../panel/message.ts";
 import type { Panel } from "../panel/panel.ts";
 import { Progress } from "../panel/progress.ts";
@@ -45,7 +44,6 @@ export class Opening {
   readonly #parts: Parts;
   readonly #usual: Sample | null;
   readonly #picker: SamplePicker;
-  readonly #loadingSign = new LoadingSign();
   readonly #progress = new Progress(() => {
     this.#stop();
   });
@@ -88,13 +86,8 @@ export class Opening {
     if (source.notes.length > 0) message.show(source.notes.join(" "));
     // The sentence about the cloud that could not be opened stays until the user does something else.
     else if (source.insteadOf === undefined) message.hide();
-    this.#say(`Loading ${source.request.name}.`, source);
+    if (source.insteadOf === undefined) this.#parts.status.loading(`Loading ${source.request.name}.`);
     this.#progress.show(null);
-  }
-
-  #say(sentence: string, { insteadOf }: Source): void {
-    if (insteadOf === undefined) this.#parts.status.loading(sentence);
-    this.#loadingSign.say(sentence);
   }
 
   async #show(source: Source, signal: AbortSignal): Promise<void> {
@@ -102,12 +95,16 @@ export class Opening {
     const { request, sample, name, notes, insteadOf } = source;
     const ready = await openCloud(source, {
       settings: () => store.current,
-      shape: () => viewer.stage.shape,
+      shape: () => {
+        // The observer of the verbs may be called later.
+        viewer.stage.refit();
+        return viewer.stage.shape;
+      },
       asked: "in the address",
       shared: false,
       signal,
       onProgress: (step, fraction) => {
-        this.#say(step, source);
+        if (insteadOf === undefined) status.loading(step);
         this.#progress.show(fraction);
       },
       preview: {
@@ -184,7 +181,6 @@ export class Opening {
   #end(): void {
     this.#source = null;
     this.#progress.hide();
-    this.#loadingSign.hide();
     this.#parts.viewer.endPreview();
   }
 

@@ -72,8 +72,6 @@ export function startSession(wishes: Wishes, first: Source): void {
   bindLessons(viewer, store, storytelling, message);
   if (wishes.story) void storytelling.tell(wishes.story);
   else void opening.open(first).then(() => introduction.begin(wishes.turns));
-  // The first cloud may come before the observer of the verbs is called.
-  viewer.stage.refit();
 }
 
 /** The height at the bottom of the picture that the verbs or the tools cover, in CSS pixels. A corner does not count. */

@@ -9,8 +9,6 @@ const TOUCHES = ["pointerdown", "wheel", "keydown"];
 
 /** Turns the picture by itself until the user touches the page. If motion is to be reduced, it never begins. */
 export class Turning {
-  /** Called when a turning has ended. */
-  onEnd: () => void = () => undefined;
   readonly #viewer: Viewer;
   #over: AbortController | null = null;
 
@@ -52,9 +50,7 @@ export class Turning {
   }
 
   stop(): void {
-    if (!this.#over) return;
-    this.#over.abort();
+    this.#over?.abort();
     this.#over = null;
-    this.onEnd();
   }
 }
