@@ -6,7 +6,7 @@ use pyo3::types::PyDict;
 
 use crate::arrays::{each, numbers, place};
 use crate::failure::{option, problem};
-use crate::options::number;
+use crate::options::{self, number};
 
 const SHAPES: &str = "exactly one of camera_to_world and world_to_camera must hold 16 numbers: 4 rows as an array of shape (4, 4), or flat, column by column";
 
@@ -37,7 +37,7 @@ pub fn read(given: &Bound<'_, PyAny>, whose: &str) -> PyResult<Camera> {
     let mut poses = 0;
     let mut distortion = None;
     for (name, value) in entries.iter() {
-        let name: String = name.extract()?;
+        let name: String = options::given(&name)?;
         let one = || number(&value).ok_or_else(|| wrong(format!("{name} must be a number")));
         match name.as_str() {
             "camera_to_world" | "world_to_camera" if value.is_none() => {}

@@ -119,9 +119,16 @@ type Reduced<'py> = (
 #[pymethods]
 impl PointCloud {
     #[new]
-    #[pyo3(signature = (positions, non_finite="error"))]
-    fn new(py: Python<'_>, positions: &Bound<'_, PyAny>, non_finite: &str) -> PyResult<Self> {
-        let (choice, non_finite) = match non_finite {
+    #[pyo3(
+        signature = (positions, non_finite=String::from("error")),
+        text_signature = "(positions, non_finite='error')"
+    )]
+    fn new(
+        py: Python<'_>,
+        positions: &Bound<'_, PyAny>,
+        #[pyo3(from_py_with = options::given)] non_finite: String,
+    ) -> PyResult<Self> {
+        let (choice, non_finite) = match non_finite.as_str() {
             "error" => (NonFinite::Error, "error"),
             "skip" => (NonFinite::Skip, "skip"),
             other => {

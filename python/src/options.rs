@@ -111,6 +111,17 @@ pub fn refuse_draft_and_scores(py: Python<'_>, options: &Options, name: &str) ->
     Ok(())
 }
 
+/// Reads an argument of a type that pyo3 knows. Another type is refused as any bad input is.
+pub fn given<'py, T: FromPyObject<'py>>(value: &Bound<'py, PyAny>) -> PyResult<T> {
+    let refused = |_| {
+        option(
+            value.py(),
+            format!("an argument must not be {}", shown(value)),
+        )
+    };
+    value.extract().map_err(refused)
+}
+
 /// Reads a number, or "auto".
 fn thickness(py: Python<'_>, value: &Bound<'_, PyAny>) -> PyResult<Option<f64>> {
     if value.extract::<&str>().is_ok_and(|word| word == "auto") {

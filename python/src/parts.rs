@@ -25,7 +25,7 @@ use crate::options;
 )]
 pub fn merge_visible<'py>(
     py: Python<'py>,
-    parts: Vec<(Bound<'py, PyAny>, Bound<'py, PyAny>)>,
+    #[pyo3(from_py_with = options::given)] parts: Vec<(Bound<'py, PyAny>, Bound<'py, PyAny>)>,
     viewpoint: &Bound<'py, PyAny>,
     options: Option<&Bound<'py, PyDict>>,
 ) -> PyResult<Bound<'py, PyArray1<u64>>> {

@@ -63,7 +63,7 @@ impl PointCloud {
         &self,
         py: Python<'py>,
         viewpoint: &Bound<'_, PyAny>,
-        max_edge: Option<f64>,
+        #[pyo3(from_py_with = options::given)] max_edge: Option<f64>,
         options: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<(Visibility, Bound<'py, PyArray2<u32>>)> {
         let viewpoint = place(viewpoint, "viewpoint")?;
@@ -94,8 +94,8 @@ impl PointCloud {
         py: Python<'py>,
         lights: &Bound<'_, PyAny>,
         triangles: Option<&Bound<'_, PyAny>>,
-        smoothing: usize,
-        ambient: f64,
+        #[pyo3(from_py_with = options::given)] smoothing: usize,
+        #[pyo3(from_py_with = options::given)] ambient: f64,
         options: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Bound<'py, PyArray1<f32>>> {
         let lights = places(lights, "lights")?;

@@ -131,15 +131,18 @@ impl PointCloud {
     /// rule: "auto" (default), "search" or "opposite".
     ///
     /// Returns (radius, exponent, evaluations): two float, and how many hulls the choice took.
-    #[pyo3(signature = (viewpoint, rule="auto"))]
+    #[pyo3(
+        signature = (viewpoint, rule=String::from("auto")),
+        text_signature = "($self, viewpoint, rule='auto')"
+    )]
     fn auto_radius(
         &self,
         py: Python<'_>,
         viewpoint: &Bound<'_, PyAny>,
-        rule: &str,
+        #[pyo3(from_py_with = options::given)] rule: String,
     ) -> PyResult<(f64, f64, u32)> {
         let viewpoint = place(viewpoint, "viewpoint")?;
-        let word = rule.into_pyobject(py)?.into_any();
+        let word = rule.as_str().into_pyobject(py)?.into_any();
         let rule = options::radius(py, "radius", &word)?;
         let chosen = self.ask(py, How::default(), |cloud| {
             cloud.auto_radius(viewpoint, rule)

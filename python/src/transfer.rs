@@ -80,7 +80,7 @@ struct Entries {
 #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
 pub fn transfer<'py>(
     py: Python<'py>,
-    cloud: &Bound<'py, PointCloud>,
+    #[pyo3(from_py_with = options::given)] cloud: Bound<'py, PointCloud>,
     cameras: &Bound<'py, PyAny>,
     images: &Bound<'py, PyAny>,
     merge: Option<&Bound<'py, PyAny>>,

@@ -7,7 +7,7 @@ import threading
 import numpy as np
 import pytest
 
-from hidden_point_removal import Horizon, HprError, PointCloud, merge_visible
+from hidden_point_removal import Horizon, HprError, PointCloud, merge_visible, transfer
 
 VIEWPOINT = [0.0, 0.0, 4.0]
 
@@ -141,3 +141,19 @@ def test_a_forked_process_answers():
     assert queue.get(timeout=60) == expected
     child.join()
     assert child.exitcode == 0
+
+
+@pytest.mark.parametrize("ask", [
+    lambda cloud: PointCloud([[0.0, 0, 1]], non_finite=5),
+    lambda cloud: cloud.auto_radius(VIEWPOINT, 5),
+    lambda cloud: cloud.reconstruct(VIEWPOINT, max_edge="wide"),
+    lambda cloud: cloud.illuminate([VIEWPOINT], smoothing=-1),
+    lambda cloud: cloud.illuminate([VIEWPOINT], ambient="dim"),
+    lambda cloud: cloud.visible_from_camera({5: 1}),
+    lambda cloud: merge_visible(5, VIEWPOINT, radius=9),
+    lambda cloud: transfer(ball(5), [], []),
+])
+def test_an_argument_of_another_type_is_refused(ask):
+    with pytest.raises(HprError, match="an argument must not be") as refused:
+        ask(PointCloud(ball(50)))
+    assert refused.value.code == "option"

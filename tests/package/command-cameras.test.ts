@@ -93,6 +93,7 @@ describe("--cameras", () => {
 
   it.each<[string, unknown, RegExp]>([
     ["no list", { frames: 5 }, /frames must be an array/],
+    ["an empty list", [], /wrong.json cannot be read: it has no cameras/],
     ["a field", [cameras[0], { ...cameras[1], fx: "5" }], /camera \[1\]'s fx must be a number/],
     ["a wrong name", [{ ...cameras[0], zoom: 2 }], /camera \[0\]: unknown option "zoom"/],
     ["no name", [{ ...cameras[0], image: 5 }], /cameras\[0\]\.image must be a text/],

@@ -36,6 +36,7 @@ export async function holdsCameras(name: string): Promise<boolean> {
  */
 export async function camerasIn(file: string, inFileNames: boolean): Promise<NamedCamera[]> {
   const cameras = await readCameras(file);
+  if (cameras.length === 0) throw new InputProblem(`${file} cannot be read: it has no cameras`);
   const known = new Set<string>();
   return cameras.map(({ camera, image }, i) => {
     const refusal = (says: string) => new InputProblem(`${file} cannot be read: camera ${i + 1} (${image}) ${says}`);
