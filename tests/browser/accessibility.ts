@@ -39,7 +39,7 @@ const unfolded: Step = {
 };
 
 /** Opens a tool and presses Enter, which picks the point in the middle of the picture, so that the cards are filled. */
-const tools: Step[] = ["Pick", "Measure", "Label", "Compare", "Stations", "Export"].map((name) => ({
+const tools: Step[] = ["Pick", "Measure", "Select", "Label", "Compare", "Stations", "Export"].map((name) => ({
   name: `the tool ${name}`,
   act: async (page) => {
     const button = page.locator("#tool-bar").getByRole("button", { name });

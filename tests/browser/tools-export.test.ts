@@ -76,7 +76,6 @@ test("the visible points saved as PLY, JSON and CSV equal the package's, with co
   const page = await openBall({}, undefined, coloredPly());
   const seen = await visible(page);
   await tool(page, "Export").click();
-  expect(await page.locator("#export-what").isVisible()).toBe(false);
   const ply = await saved(page, "PLY");
   expect(ply.name).toBe("utm-visible.ply");
   const { properties, comments, rows } = readPly(ply.content);
@@ -118,6 +117,48 @@ test("the visible points saved as PLY, JSON and CSV equal the package's, with co
   await page.locator("#file").setInputFiles({ name: ply.name, mimeType: "", buffer: ply.content });
   await page.locator(`#status[data-total="${seen.length}"]`).waitFor();
   expect((await upToDate(page)).refilters).toBeGreaterThan(before.refilters);
+});
+
+test("a lasso takes only visible points unless it goes through, Shift adds, and the selection is saved", async () => {
+  const page = await openBall();
+  const seen = await visible(page);
+  const canvas = (await page.locator("#view").boundingBox())!;
+  const [x, y] = [canvas.x + canvas.width / 2, canvas.y + canvas.height / 2];
+  const left = { left: x - 70.3, top: y - 70.3, right: x, bottom: y + 70.3 };
+  const right = { ...left, left: x, right: x + 70.3 };
+  const around = async (box: typeof left) => {
+    await page.mouse.move(box.left, box.top);
+    await page.mouse.down();
+    await page.mouse.move(box.right, box.top);
+    await page.mouse.move(box.right, box.bottom);
+    await page.mouse.move(box.left, box.bottom);
+    await page.mouse.up();
+  };
+  const indices = async () => {
+    await tool(page, "Export").click();
+    const file = await saved(page, "JSON");
+    await tool(page, "Select").click();
+    return { name: file.name, indices: (JSON.parse(file.content.toString()) as { indices: number[] }).indices };
+  };
+  const before = await status(page);
+  await tool(page, "Select").click();
+  await around(left);
+  expect(await indices()).toEqual({ name: "utm-selected.json", indices: await within(page, seen, left) });
+  await page.keyboard.down("Shift");
+  await around(right);
+  await page.keyboard.up("Shift");
+  const both = await within(page, seen, { ...left, right: right.right });
+  expect(await page.locator("#select-result").getAttribute("data-count")).toBe(String(both.length));
+  expect(await indices()).toEqual({ name: "utm-selected.json", indices: both });
+  await page.getByLabel("Through the surface").check();
+  await around(left);
+  const through = await within(page, everything, left);
+  expect(through.length).toBeGreaterThan((await within(page, seen, left)).length);
+  expect((await indices()).indices).toEqual(through);
+  // The camera stood still.
+  expect((await status(page)).viewpoint).toEqual(before.viewpoint);
+  await page.locator("#select-clear").click();
+  expect(await indices()).toEqual({ name: "utm-visible.json", indices: seen });
 });
 
 test("the picture is saved as it is on the screen, with its marks", async () => {

@@ -14,18 +14,20 @@ export interface ExportActions {
   changed: () => void;
 }
 
-/** Saves the visible points or the picture; copies a link to the page. */
+/** Saves the selected points, the visible ones where none are selected, or the picture; copies a link to the page. */
 export class Export implements Tool {
   readonly name = "export";
   readonly uses = "nothing";
   readonly #bench: Bench;
+  readonly #selected: () => Uint32Array;
   readonly #actions: ExportActions;
   readonly #left: () => string[];
   readonly #output = byId("export-result");
 
   /** `left`: the things that are too long for the link. */
-  constructor(bench: Bench, actions: ExportActions, left: () => string[]) {
+  constructor(bench: Bench, selected: () => Uint32Array, actions: ExportActions, left: () => string[]) {
     this.#bench = bench;
+    this.#selected = selected;
     this.#left = left;
     this.#actions = actions;
     this.#bind("export-ply", "ply", () => this.#ply());
@@ -44,11 +46,19 @@ export class Export implements Tool {
     this.open();
   }
 
+  get #what(): "visible" | "selected" {
+    return this.#selected().length > 0 ? "selected" : "visible";
+  }
+
+  get #indices(): Uint32Array {
+    return this.#what === "selected" ? this.#selected() : this.#bench.viewer.scene.visible;
+  }
+
   #bind(id: string, ending: string, parts: () => Iterable<BlobPart> | Promise<Iterable<BlobPart>>): void {
     const button = byId(id, HTMLButtonElement);
     button.addEventListener("click", () => {
       if (!this.#bench.viewer.cloud) return;
-      const file = `${stemOf(this.#actions.name())}-${ending === "png" ? "picture" : "visible"}.${ending}`;
+      const file = `${stemOf(this.#actions.name())}-${ending === "png" ? "picture" : this.#what}.${ending}`;
       button.disabled = true;
       const run = async () => {
         try {
@@ -65,24 +75,26 @@ export class Export implements Tool {
 
   async #ply(): Promise<Iterable<BlobPart>> {
     const { plyParts } = await import("../../src/ts/formats/write/ply.js");
-    const { cloud, positions, answer, visible: indices } = this.#bench.viewer.scene;
-    const comments = [`Visible points: ${indices.length} of ${cloud.count}`, ...seenFrom(answer)];
+    const { cloud, positions, answer } = this.#bench.viewer.scene;
+    const indices = this.#indices;
+    const what = this.#what === "visible" ? "Visible" : "Selected";
+    const comments = [`${what} points: ${indices.length} of ${cloud.count}`, ...seenFrom(answer)];
     return plyParts({ ...contentOf(cloud), positions, indices }, comments);
   }
 
   async #las(): Promise<Iterable<BlobPart>> {
     const { lasParts } = await import("../../src/ts/formats/write/las.js");
-    const { cloud, positions, visible: indices } = this.#bench.viewer.scene;
+    const { cloud, positions } = this.#bench.viewer.scene;
     const { colors, fields, facts } = cloud;
-    return lasParts({ positions, colors, fields, indices }, facts.las);
+    return lasParts({ positions, colors, fields, indices: this.#indices }, facts.las);
   }
 
   *#json(): Iterable<BlobPart> {
-    const { cloud, answer, visible } = this.#bench.viewer.scene;
+    const { cloud, answer } = this.#bench.viewer.scene;
     const { question, visibility } = answer;
     const head = {
       cloud: this.#actions.name(),
-      points: "visible",
+      points: this.#what,
       total: cloud.count,
       viewpoint: question.viewpoint,
       radius: visibility.radius,
@@ -92,7 +104,7 @@ export class Export implements Tool {
     };
     yield JSON.stringify(head).slice(0, -1);
     yield ',"indices":[';
-    yield* joined(visible, ",", (index) => String(indexInFile(cloud, index)));
+    yield* joined(this.#indices, ",", (index) => String(indexInFile(cloud, index)));
     yield "]}\n";
   }
 
@@ -100,7 +112,7 @@ export class Export implements Tool {
     const { scene } = this.#bench.viewer;
     yield "index,x,y,z\n";
     yield* joined(
-      scene.visible,
+      this.#indices,
       "\n",
       (index) => `${indexInFile(scene.cloud, index)},${coordinatesAt(scene, index).join()}`,
     );

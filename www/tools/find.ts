@@ -53,6 +53,29 @@ function nearestAt(
   return near.reduce((best, point) => (point.off < best.off ? point : best)).index;
 }
 
+/** The visible points, or all points, within a closed line, ascending. */
+export function pointsWithin(viewer: Viewer, line: readonly { x: number; y: number }[], through: boolean): Uint32Array {
+  const { cloud, visible } = viewer.scene;
+  const at = new Projection(cloud.local, viewer.stage.camera, viewer.stage.size);
+  const [xs, ys] = [line.map(({ x }) => x), line.map(({ y }) => y)];
+  const box = { left: Math.min(...xs), right: Math.max(...xs), top: Math.min(...ys), bottom: Math.max(...ys) };
+  const found: number[] = [];
+  at.each(box, through ? null : visible, (index) => {
+    if (isInside(line, at)) found.push(index);
+  });
+  return Uint32Array.from(found);
+}
+
+/** A ray to the right from a place inside crosses the line an odd number of times. */
+function isInside(line: readonly { x: number; y: number }[], { x, y }: { x: number; y: number }): boolean {
+  let inside = false;
+  for (let i = 0, j = line.length - 1; i < line.length; j = i++) {
+    const [a, b] = [line[i]!, line[j]!];
+    if (a.y > y !== b.y > y && x < a.x + ((y - a.y) * (b.x - a.x)) / (b.y - a.y)) inside = !inside;
+  }
+  return inside;
+}
+
 /** Whether a point is among the ascending indices. */
 export function includes(indices: Uint32Array, index: number): boolean {
   let low = 0;

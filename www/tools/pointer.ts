@@ -32,3 +32,50 @@ export function spotOf(canvas: HTMLElement, { clientX, clientY }: MouseEvent, to
   const { left, top } = canvas.getBoundingClientRect();
   return { x: clientX - left, y: clientY - top, tolerance };
 }
+
+/** While `wanted`, drags on the canvas do not move the camera: the handlers get the path of each drag instead. */
+export function onDrag(
+  canvas: HTMLElement,
+  wanted: () => boolean,
+  handlers: {
+    drag: (path: { x: number; y: number }[]) => void;
+    end: (path: { x: number; y: number }[], event: PointerEvent) => void;
+  },
+): { cancel: () => boolean } {
+  let path: { x: number; y: number }[] | null = null;
+  const at = (event: PointerEvent) => {
+    const { left, top } = canvas.getBoundingClientRect();
+    return { x: event.clientX - left, y: event.clientY - top };
+  };
+  // In the capture phase, this handler gets the event before the orbit controls.
+  canvas.addEventListener(
+    "pointerdown",
+    (event) => {
+      if (!wanted() || event.button !== 0) return;
+      event.stopImmediatePropagation();
+      canvas.focus();
+      if (!event.isPrimary) return;
+      canvas.setPointerCapture(event.pointerId);
+      path = [at(event)];
+    },
+    { capture: true },
+  );
+  canvas.addEventListener("pointermove", (event) => {
+    if (!path || !event.isPrimary) return;
+    path.push(at(event));
+    handlers.drag(path);
+  });
+  canvas.addEventListener("pointerup", (event) => {
+    if (!path || !event.isPrimary) return;
+    const done = path;
+    path = null;
+    handlers.end(done, event);
+  });
+  const cancel = () => {
+    const begun = path !== null;
+    path = null;
+    return begun;
+  };
+  canvas.addEventListener("pointercancel", cancel);
+  return { cancel };
+}

@@ -10,6 +10,8 @@ export interface Bench {
   upward: () => readonly [number, number, number];
   /** The index of the point at a spot, or a sentence if there is none. */
   pointAt: (spot: Spot) => number | string;
+  /** Whether hidden points count, too. */
+  through: () => boolean;
   /** The name of the cloud. */
   name: () => string;
   /** Must be called when marks have changed: they are part of the address. */
@@ -20,9 +22,9 @@ export interface Bench {
 
 /** One tool of the bar. Its button is #tool-NAME, its words and controls are in #NAME-card. */
 export interface Tool {
-  readonly name: "pick" | "measure" | "label" | "export" | "stations";
-  /** Whether the tool uses clicks on the canvas. */
-  readonly uses: "clicks" | "nothing";
+  readonly name: "pick" | "measure" | "select" | "label" | "export" | "stations";
+  /** Whether the tool uses clicks or drags on the canvas. */
+  readonly uses: "clicks" | "drags" | "nothing";
   /** Called at a click, and for the middle of the picture when Enter is pressed. */
   click?(spot: Spot): void;
   /** Gives up a step that has been begun. Returns `false` if there is no such step. */

@@ -22,6 +22,7 @@ import { Patience } from "./patience.ts";
 import { Pick } from "./pick.ts";
 import { pointAt, type Spot } from "./find.ts";
 import { onClick, spotOf, TOLERANCE } from "./pointer.ts";
+import { Select } from "./select.ts";
 import type { Bench, Tool } from "./tool.ts";
 
 /** The bar over the cloud. At most one of its tools is active. The active tool receives the clicks or the drags. */
@@ -48,24 +49,31 @@ export class Tools {
       marks: this.#marks,
       upward: () => upVector(store.current.up),
       pointAt: (spot) => {
-        const through = this.#through.checked;
+        const through = bench.through();
         return pointAt(viewer, spot, through) ?? (through ? "No point there." : "No visible point there.");
       },
+      through: () => this.#through.checked,
       name: actions.name,
       changed: actions.changed,
       whenFinal: (run, here) => {
         this.#patience.whenFinal(run, here);
       },
     };
+    const select: Select = new Select(bench, this.#canvas, () => this.#active === select);
     const measure = new Measure(bench);
     const label = new Label(bench);
-    const exports = new Export(bench, actions, () => linkOf(this.#marked).left);
+    const exports = new Export(
+      bench,
+      () => select.indices,
+      actions,
+      () => linkOf(this.#marked).left,
+    );
     const stations = new LateTool("stations", "clicks", async (card) => {
       const { Stations } = await import("./stations/stations.ts");
       return new Stations(bench, store, card);
     });
     this.#marked = { measure, label, stations };
-    this.#tools = [new Pick(bench), measure, label, stations, exports];
+    this.#tools = [new Pick(bench), measure, select, label, stations, exports];
     for (const tool of this.#tools) {
       byId(`tool-${tool.name}`).addEventListener("click", () => {
         this.#toggle(tool);

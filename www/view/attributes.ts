@@ -3,16 +3,25 @@ import { type Cloud, type Up, upVector } from "../cloud/cloud.ts";
 import { spreadOf } from "../cloud/spread.ts";
 import type { Theme } from "./theme.ts";
 
+/** The share of a selected point's own color that is covered. */
+const CHOSEN_COVERAGE = 0.65;
+
 /** The text before the `main` of a vertex shader: the color of a vertex. */
 export const TINT_SHADER = /* glsl */ `
   uniform vec3 up, low, high;
   uniform vec2 heights;
   uniform bool colored;
+  uniform vec3 chosenColor;
+  attribute float chosen;
   attribute vec3 color;
 
   vec3 ownTint() {
     if (colored) return color;
     return mix(low, high, clamp((dot(position, up) - heights.x) / (heights.y - heights.x), 0.0, 1.0));
+  }
+
+  vec3 chosenOr(vec3 tint) {
+    return mix(tint, chosenColor, ${CHOSEN_COVERAGE.toFixed(2)} * chosen);
   }
 `;
 
@@ -25,6 +34,7 @@ export class CloudAttributes {
     // The colors are not converted, because the shading pass and the screen both take display colors.
     low: { value: new Color() },
     high: { value: new Color() },
+    chosenColor: { value: new Color() },
     colored: { value: false },
   };
   readonly #local: Float32Array;
@@ -33,6 +43,7 @@ export class CloudAttributes {
   readonly #position: BufferAttribute;
   readonly #ownColors: Uint8Array | null;
   #color: BufferAttribute | null = null;
+  #chosen: BufferAttribute | null = null;
 
   constructor({ local, colors, radius }: Cloud, theme: Theme) {
     this.#local = local;
@@ -43,18 +54,33 @@ export class CloudAttributes {
     this.setTheme(theme);
   }
 
-  setTheme({ low, high }: Theme): void {
+  setTheme({ low, high, chosen }: Theme): void {
     this.uniforms.low.value = display(low);
     this.uniforms.high.value = display(high);
+    this.uniforms.chosenColor.value = display(chosen);
   }
 
   /** Gives a geometry the cloud's points as vertices. */
   addTo(geometry: BufferGeometry): void {
     geometry.setAttribute("position", this.#position);
     if (this.#color) geometry.setAttribute("color", this.#color);
+    if (this.#chosen) geometry.setAttribute("chosen", this.#chosen);
     // Otherwise three.js computes it from all points, once for each geometry.
     geometry.boundingSphere = this.#bounds;
     this.#geometries.push(geometry);
+  }
+
+  /** Sets the points that are selected. */
+  setChosen(indices: Uint32Array): void {
+    if (!this.#chosen) {
+      if (indices.length === 0) return;
+      this.#chosen = new BufferAttribute(new Uint8Array(this.#local.length / 3), 1, true).setUsage(DynamicDrawUsage);
+      for (const geometry of this.#geometries) geometry.setAttribute("chosen", this.#chosen);
+    }
+    const marks = this.#chosen.array as Uint8Array;
+    marks.fill(0);
+    for (const index of indices) marks[index] = 255;
+    this.#chosen.needsUpdate = true;
   }
 
   setUp(up: Up): void {

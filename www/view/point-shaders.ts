@@ -27,7 +27,7 @@ export const vertexShader = /* glsl */ `
     gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
     size = clamp(width * pixels / gl_Position.w, least, max(least, most));
     gl_PointSize = size;
-    tint = mix(ownTint(), cover, coverage);
+    tint = chosenOr(mix(ownTint(), cover, coverage));
   }
 `;
 

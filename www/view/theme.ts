@@ -9,6 +9,8 @@ export interface Theme {
   /** Hidden points have their own hue. Dimmed points that nothing covers are nearer to the background. */
   hidden: string;
   hiddenDimmed: string;
+  /** Selected points. */
+  chosen: string;
   /**
    * The differences between our answer and a reference. Everybody can tell the two hues apart, also the color-blind, and
    * nothing else is drawn in them. The page's swatches have the same colors from styles/theme.css.
@@ -29,6 +31,7 @@ export const THEMES: Record<ThemeName, Theme> = {
     plain: "#ded8cc",
     hidden: "#a9599c",
     hiddenDimmed: "#4a515c",
+    chosen: "#4fb3ff",
     onlyOurs: "#ff8c1a",
     onlyReference: "#1fc8e0",
     accent: "#e7b562",
@@ -40,6 +43,7 @@ export const THEMES: Record<ThemeName, Theme> = {
     plain: "#8b877f",
     hidden: "#a3348f",
     hiddenDimmed: "#b4bbc4",
+    chosen: "#0b6fc4",
     onlyOurs: "#c2570a",
     onlyReference: "#007f99",
     accent: "#8a5a0b",

@@ -276,6 +276,12 @@ export class Viewer {
     if (this.#store.current.color === name) this.#paint(this.#store.current);
   }
 
+  /** Tints the points that are selected. */
+  setChosen(indices: Uint32Array): void {
+    this.#shown?.attributes.setChosen(indices);
+    this.stage.invalidate();
+  }
+
   /** Makes another view the first one, and moves the camera there. */
   setHome(findHome: Opened["findHome"]): void {
     if (!this.#shown) return;
