@@ -30,13 +30,14 @@ const TO_DEVIATION: f64 = 1.15;
 /// A cloud is noisy if its noise is more than this, in spacings. Clean scans have up to 0.065, and
 /// registered ones 0.13 and more.
 const NOISY: f64 = 0.075;
-/// The share of it that clean clouds may have, too.
-const CLEAN: f64 = 0.05;
+/// Less noise counts if it is even and [alike](MEASURED). The corners of clean meshes are not. This share of the noise never counts.
+const CLEAN: f64 = 0.04;
 /// Noise is even if this ratio of a low to a very low percentile is not reached. Normal noise gives
 /// 1.29, noisy objects at most 1.57, scans that overlap 2.0 and more.
 const EVEN: f64 = 1.8;
 const VERY_LOW: usize = 5;
-/// Even noise with a median kurtosis below this is two sheets. Normal noise has 2.63 to 2.76.
+/// Even noise with a median kurtosis below this is two sheets, unless it is [alike](MEASURED). Normal
+/// noise has 2.63 to 2.76.
 const TWO_SHEETS: f64 = 2.35;
 /// The measured noise comes nowhere near this, however large the noise is. Above 0.25 it is too small,
 /// as measured on spheres with noise of 0.1 to 2 spacings.
@@ -99,6 +100,8 @@ pub(crate) struct Noise {
     pub excess: f64,
     /// Whether a noisy cloud has the same noise everywhere.
     pub is_even: bool,
+    /// Whether points are about as far off their planes in small surroundings as in large ones.
+    pub is_alike: bool,
     pub texture: Texture,
 }
 
@@ -121,15 +124,23 @@ impl Noise {
             ratio: TO_DEVIATION * square_root(constant.max(0.0)),
             excess: 0.0,
             is_even: false,
+            is_alike: measured.is_alike()?,
             texture: measured.texture(&cut)?,
             samples: Vec::new(),
         };
-        if noise.ratio > NOISY && noise.ratio * spacing < f64::INFINITY {
+        let is_large = noise.ratio > NOISY;
+        if noise.ratio > CLEAN
+            && (is_large || noise.is_alike)
+            && noise.ratio * spacing < f64::INFINITY
+        {
             noise.is_even = measured.is_even(points)?;
             // The two sides of a thin sheet are no noise.
-            let is_sheets = noise.is_even && low(&measured.kurtoses, 50)? < TWO_SHEETS;
-            if !is_sheets {
+            let is_sheets =
+                noise.is_even && !noise.is_alike && low(&measured.kurtoses, 50)? < TWO_SHEETS;
+            if !is_sheets && (is_large || noise.is_even) {
                 noise.excess = (noise.ratio - CLEAN) * spacing;
+            }
+            if !is_sheets && is_large {
                 noise.texture = Texture {
                     looser: if noise.is_even {
                         1.0 + BY_NOISE * (noise.ratio - CLEAN)
@@ -238,9 +249,12 @@ impl Measured {
         })
     }
 
+    fn is_alike(&self) -> Result<bool, OutOfMemory> {
+        Ok(low(&self.planes[0], 50)? >= MEASURED)
+    }
+
     fn texture(&self, spacings: &[f64]) -> Result<Texture, OutOfMemory> {
-        let [alike, off] = &self.planes;
-        let is_measured = low(alike, 50)? >= MEASURED && low(off, 50)? >= LEAST_OFF;
+        let is_measured = self.is_alike()? && low(&self.planes[1], 50)? >= LEAST_OFF;
         if is_measured && low(spacings, 90)? >= SPREAD * low(spacings, 50)? {
             return Ok(Texture {
                 looser: SCANNED,

@@ -76,8 +76,6 @@ pub(crate) struct Survey {
 pub(crate) struct Smooth {
     pub cloud: Box<PointCloud>,
     pub noise: Noise,
-    /// The neighbors that vote on the answer, where noise is large.
-    pub voters: Option<Voters>,
 }
 
 impl Clone for Kept {

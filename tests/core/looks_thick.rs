@@ -49,6 +49,8 @@ fn a_sphere_with_noise_is_seen_like_a_clean_one() {
     let viewpoint = [0.3, -0.4, 3.0];
     let dot = |p: Place| p[0] * viewpoint[0] + p[1] * viewpoint[1] + p[2] * viewpoint[2];
     for (noise, lost_before) in [
+        (0.05, 2.0),
+        (0.07, 3.0),
         (0.1, 5.0),
         (0.3, 20.0),
         (0.5, 35.0),

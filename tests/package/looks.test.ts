@@ -155,6 +155,24 @@ describe("a surface with noise", () => {
     expect(noisy.noise).not.toBe(await other.noise);
     await other.dispose();
   });
+
+  it("has a noise of 0 where nothing tells of it, and a finite one for any points", () => {
+    const noise = (count: number, place: (i: number) => number[]) =>
+      new PointCloud(Array.from({ length: count }, (_, i) => place(i)).flat()).noise;
+    const anywhere = (size: number) => Array.from({ length: 3 }, () => size * random());
+    const lattice = (i: number) => [i % 20, Math.floor(i / 20) % 20, Math.floor(i / 400)];
+    expect({
+      none: noise(0, () => []),
+      equal: noise(3000, () => [1, 2, 3]),
+      few: noise(24, () => anywhere(1)),
+      line: noise(3000, (i) => [i, 2 * i, -i]),
+      plane: noise(3000, () => [random(), random(), 2]),
+      outlier: new PointCloud([...sphere, 1e7, 0, 0]).noise,
+    }).toEqual({ none: 0, equal: 0, few: 0, line: 0, plane: 0, outlier: 0 });
+    for (const finite of [noise(8000, lattice), noise(6000, (i) => anywhere(i % 101 === 0 ? 100 : 1))]) {
+      expect(finite >= 0 && finite < Infinity, String(finite)).toBe(true);
+    }
+  });
 });
 
 describe("a calibration", () => {
