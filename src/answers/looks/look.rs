@@ -3,6 +3,7 @@
 use alloc::vec::Vec;
 use glam::DVec3;
 
+use crate::answers::looks::odds::Odds;
 use crate::answers::looks::part::Part;
 use crate::answers::looks::tuning::Tuning;
 use crate::base::allocation::{OutOfMemory, filled};
@@ -125,7 +126,7 @@ impl Verdicts {
 
     /// Mixes each score with the mean score of the points beside it. Points that follow each other
     /// in the cloud's order are near each other in space.
-    pub(super) fn mix_scores(&mut self) -> Result<(), OutOfMemory> {
+    pub(super) fn mix_scores(&mut self, odds: Odds) -> Result<(), OutOfMemory> {
         let own = core::mem::take(&mut self.scores);
         self.scores = filled(own.len(), 0.0)?;
         for (place, mixed) in self.scores.iter_mut().enumerate() {
@@ -133,7 +134,7 @@ impl Verdicts {
             let others = (near.len() - 1).max(1) as f32;
             let own_share = own[place] * (1.0 - SHARE);
             let sum = near.fold(0.0, |sum, other| sum + own[other]);
-            *mixed = own_share + SHARE * (sum - own[place]) / others;
+            *mixed = odds.probability(own_share + SHARE * (sum - own[place]) / others);
         }
         Ok(())
     }

@@ -17,6 +17,7 @@ mod corners;
 mod decide;
 mod followers;
 mod look;
+mod odds;
 mod part;
 mod rays;
 mod series;

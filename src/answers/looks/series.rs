@@ -160,7 +160,7 @@ impl Series {
                     let look = self.look(cloud, count - 1);
                     self.verdicts.show_aside(&look, points)?;
                 }
-                self.verdicts.mix_scores()?;
+                self.verdicts.mix_scores(self.tuning.odds)?;
             }
             self.next = count + 1;
             return Ok(true);

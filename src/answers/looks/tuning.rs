@@ -10,6 +10,7 @@
 
 use glam::DVec3;
 
+use crate::answers::looks::odds::Odds;
 use crate::answers::looks::rays::{Projection, Ray, Rays};
 use crate::base::allocation::{OutOfMemory, with_capacity};
 use crate::base::real::square_root;
@@ -64,6 +65,8 @@ pub(super) struct Tuning {
     pub aside: f64,
     /// How much nearer than the point that it shows.
     pub nearer: f64,
+    /// What scores become.
+    pub odds: Odds,
 }
 
 impl Tuning {
@@ -98,8 +101,22 @@ impl Tuning {
             }
             Projection::Parallel(_) => (0.0, 0.0),
         };
+        let is_moved = survey.smooth.is_some() && given.is_none();
+        let odds = Odds::of(
+            !is_moved && measured.texture.looser > 1.0,
+            if is_moved { measured.ratio } else { 0.0 },
+            growth,
+            if excess > 0.0 {
+                excess / statistics.spacing
+            } else {
+                0.0
+            },
+        );
         if !(thickness > 0.0 || growth > 0.0) {
-            return Ok(Self::plain(statistics));
+            return Ok(Self {
+                odds,
+                ..Self::plain(statistics)
+            });
         }
         let is_thick = thickness > 0.0;
         let (rules, cosine) = if is_thick {
@@ -138,6 +155,7 @@ impl Tuning {
             thickness,
             aside: ASIDE * rules * excess,
             nearer: NEARER * excess,
+            odds,
         })
     }
 
@@ -166,6 +184,7 @@ impl Tuning {
             thickness: 0.0,
             aside: 0.0,
             nearer: 0.0,
+            odds: Odds::PLAIN,
         }
     }
 }
