@@ -3,8 +3,8 @@
 //! Looks show points that no single hull shows, so what certainly hides for one hull may hide them. A map of
 //! looks decides as looks do, with wider margins, since it has fewer points: a point is hidden that lies
 //! farther behind the triangle before it, back in its place, than the triangle's longest edge allows. This
-//! is not proved. On 42 scans, simulated scans and clean clouds a map hides at most 1 % of what looks
-//! show.
+//! is not proved. On 42 scans, simulated scans and clean clouds the worst map hid 1.1 % of what looks
+//! show, and the worst first map, before any other, 1.6 %.
 
 use alloc::vec::Vec;
 use glam::DVec3;
