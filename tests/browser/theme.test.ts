@@ -70,9 +70,11 @@ test("the address's theme is set before anything is drawn, even before the scrip
   await page.route("**/assets/index-*.js", () => undefined);
   await page.goto(`${page.url().split("?")[0]!}?sample=bunny&theme=light`, { waitUntil: "commit" });
   await page.locator("#status").waitFor();
-  const { background } = await page.evaluate(() => ({ background: getComputedStyle(document.body).backgroundColor }));
   const [r, g, b] = [1, 3, 5].map((at) => Number.parseInt(THEMES.light.background.slice(at, at + 2), 16));
-  expect(background).toBe(`rgb(${r}, ${g}, ${b})`);
+  // The style sheet may still be on its way.
+  await expect
+    .poll(() => page.evaluate(() => getComputedStyle(document.body).backgroundColor))
+    .toBe(`rgb(${r}, ${g}, ${b})`);
 });
 
 test("a message names a theme that does not exist", async () => {
