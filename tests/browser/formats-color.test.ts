@@ -6,7 +6,7 @@ import { addStyle } from "./site.js";
 import { ball, georeferencedBall, text } from "./clouds.js";
 import { choose } from "./files.js";
 import { attributedPcd, attributedPly, colorOf, glb, inMillimeters, las, table } from "./formats.js";
-import { answered, openReady, picture, differentPixels, reached, served, status, unfold } from "./support.js";
+import { answered, openReady, picture, differentPixels, reached, served, unfold, upToDate } from "./support.js";
 
 const COUNT = 600;
 const near = ball(COUNT);
@@ -14,7 +14,7 @@ const far = inMillimeters(georeferencedBall(COUNT));
 const laz = new Uint8Array(readFileSync(join(import.meta.dirname, "fixtures/ball-12.laz")));
 
 async function open(page: Page, name: string, content: Uint8Array): Promise<void> {
-  const before = await status(page);
+  const before = await upToDate(page);
   await choose(page, name, content);
   await answered(page, before);
 }
@@ -139,7 +139,7 @@ test("the samples street and tile have classes and intensity, and tile has map c
     ["street", 150_000, "behind glass"],
     ["tile", 200_000, "high vegetation"],
   ] as const) {
-    const before = await status(page);
+    const before = await upToDate(page);
     await page.locator("#sample").selectOption(sample);
     const now = await answered(page, before);
     expect(now.total).toBeGreaterThan(least);
@@ -178,7 +178,7 @@ test("the samples street and tile have classes and intensity, and tile has map c
 
 test("loading can be stopped, and the previous cloud stays", async () => {
   const page = await openReady("?sample=bunny&points=300000");
-  const before = await status(page);
+  const before = await upToDate(page);
   // This many points take long enough to be stopped. Few of them are drawn meanwhile.
   const content = las(far, { format: 0, claimed: 120_000_000 });
   await page.evaluate(

@@ -157,10 +157,13 @@ export async function said(page: Page): Promise<string> {
   return (await page.locator("#status").textContent())!;
 }
 
-/** Waits for an answer after `before`. */
+/** Waits for an answer after `before`. While a cloud is being loaded, the one before it may be answered once more. */
 export async function answered(page: Page, before: Status): Promise<Status> {
   await page.waitForFunction(
-    (refilters) => Number(document.getElementById("status")!.dataset["refilters"]) > refilters,
+    (refilters) => {
+      const { dataset } = document.getElementById("status")!;
+      return dataset["state"] !== "loading" && Number(dataset["refilters"]) > refilters;
+    },
     before.refilters,
     { timeout: 60_000 },
   );
