@@ -5,7 +5,7 @@ import type { Camera } from "hidden-point-removal";
 
 import { bumpySphere, readyPackage } from "./support";
 
-const { PointCloud, WorkerPointCloud, cameraFromPose, cameraFromThree, intrinsicsFromFieldOfView } =
+const { PointCloud, WorkerPointCloud, cameraFromPose, cameraFromThree, intrinsicsFromFieldOfView, transfer } =
   await readyPackage();
 
 const positions = bumpySphere(5, 6000);
@@ -155,6 +155,15 @@ it("a pose is taken both ways, and the wrong way is said", async () => {
   expect([wrong.count, wrong.note]).toEqual([0, expect.stringContaining("inverse pose")]);
   const remote = await WorkerPointCloud.create(away, { workers: 2 });
   expect((await remote.visibleFromCamera({ ...rest, cameraToWorld: worldToCamera })).note).toBe(wrong.note);
+  const bulk = [
+    { ...rest, cameraToWorld },
+    { ...rest, cameraToWorld: worldToCamera },
+  ];
+  const images = bulk.map(({ width, height }) => ({ width, height, data: new Uint8Array(width * height * 4) }));
+  for (const answer of [cloud.seenBy(bulk), await remote.seenBy(bulk), transfer(cloud, bulk, images)]) {
+    expect(answer.note).toBe(`camera 1: ${wrong.note}`);
+  }
+  expect(cloud.seenBy(bulk.slice(0, 1)).note).toBeUndefined();
   await remote.dispose();
   const [x, y, z] = [11, 22, 40];
   expect(cloud.visibleFrom({ x, y, z }).indices).toEqual(cloud.visibleFrom([x, y, z]).indices);

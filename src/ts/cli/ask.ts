@@ -34,7 +34,7 @@ export interface Answer {
   /** What images say of each point. Then `indices` are the points that at least one camera sees. */
   colors?: Transferred;
   /** What is probably wrong with the camera. */
-  note?: string;
+  note?: string | undefined;
   image?: { pixels: Float32Array; depths: Float32Array };
 }
 
@@ -84,7 +84,7 @@ async function* answers(
   const from = async (seat: number[] | Camera) => {
     if (isCamera(seat)) {
       const { indices, pixels, depths, note } = await cloud.visibleFromCamera(seat as Camera, options);
-      return { indices, image: { pixels, depths }, ...(note !== undefined && { note }) };
+      return { indices, image: { pixels, depths }, note };
     }
     const { indices, scores } = await cloud.visibleFrom(seat as number[], options);
     if (scores === undefined) return { indices };
@@ -117,7 +117,7 @@ async function* answers(
       const seats = question.seats.map(({ seat }) => seat);
       const rows = await cloud.seenBy(seats, listening);
       const counts = rows.offsets.subarray(1).map((end, i) => end - rows.offsets[i]!);
-      yield { indices: atLeast(counts, 1), rows };
+      yield { indices: atLeast(counts, 1), rows, note: rows.note };
       return;
     }
     case "colors": {
@@ -125,7 +125,7 @@ async function* answers(
       const images = await Promise.all(seats.map(({ image }) => readImage(question.images, image)));
       const cameras = seats.map(({ seat }) => seat);
       const colors = await transfer(cloud, cameras, images, { ...listening, merge, weights });
-      yield { indices: atLeast(colors.seen, 1), colors };
+      yield { indices: atLeast(colors.seen, 1), colors, note: colors.note };
     }
   }
 }

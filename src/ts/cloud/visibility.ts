@@ -3,6 +3,7 @@ import { describe, HprError } from "../base/errors.js";
 import { addTag } from "../base/tag.js";
 import { allocating } from "../base/memory.js";
 import { plainView, typedArrayType } from "../base/typed-arrays.js";
+import { INVERTED } from "../query/camera.js";
 import type { ResolvedInversion } from "../query/view-options.js";
 
 /**
@@ -73,9 +74,6 @@ export interface CameraView extends Visibility {
   /** What is probably wrong: the image holds next to none of the points, and that of the inverse pose many. */
   readonly note?: string;
 }
-
-const INVERTED =
-  "next to no points are in this image, but many are in that of the inverse pose: is it cameraToWorld or worldToCamera?";
 
 /** The answer to one query. Its numbers are in JavaScript's own memory, independent of the wasm. */
 export class VisibilityAnswer implements Visibility {

@@ -85,6 +85,10 @@ export type Camera = Intrinsics &
     convention?: "opencv" | "opengl" | undefined;
   };
 
+/** What is said of a camera whose pose was probably given the wrong way round. */
+export const INVERTED =
+  "next to no points are in this image, but many are in that of the inverse pose: is it cameraToWorld or worldToCamera?";
+
 const POSES = ["cameraToWorld", "worldToCamera"] as const;
 const NAMES = [
   ...POSES,

@@ -16,6 +16,8 @@ export interface SeenBy {
   cameras: Uint32Array<ArrayBuffer>;
   pixels: Float32Array<ArrayBuffer>;
   towards: Float32Array<ArrayBuffer>;
+  /** What is probably wrong with a camera; see `CameraView.note`. */
+  note?: string;
 }
 
 /** Collects what each camera sees. The memory is that of the answer, twice. */
@@ -55,7 +57,7 @@ export class SeenByTask extends SurveyTask<SeenBy> {
           for (let axis = 0; axis < 3; axis++) towards[3 * at + axis] = view.towards[3 * i + axis]!;
         });
       }
-      return { offsets, cameras, pixels, towards };
+      return { offsets, cameras, pixels, towards, ...this.noted };
     });
   }
 }

@@ -1,7 +1,8 @@
-import type { Found } from "./answers.js";
+import type { Found, Photographed } from "./answers.js";
 import { describe, HprError } from "../base/errors.js";
 import { allocating } from "../base/memory.js";
 import { isNumberArray, plainNumbers } from "../base/typed-arrays.js";
+import { INVERTED } from "./camera.js";
 import { integer, number } from "./options.js";
 import { GreedyChoice, type Placement, type PlacementSettings } from "./placement.js";
 import type { Query } from "./queries.js";
@@ -131,6 +132,8 @@ export abstract class SurveyTask<Result = unknown> {
   readonly #progress: ((fraction: number) => void) | undefined;
   /** The views that were asked and are not answered yet. */
   readonly #asked = new Set<number>();
+  /** The cameras whose poses were probably given the wrong way round. */
+  readonly #inverted = new Set<number>();
   #taken = 0;
   #isStopped = () => false;
 
@@ -171,6 +174,9 @@ export abstract class SurveyTask<Result = unknown> {
   take(number: number, found: Found): void {
     this.#asked.delete(number);
     this.add(number, found);
+    if ((found as Partial<Photographed>).inverted === true) {
+      this.#inverted.add(number);
+    }
     this.#taken += 1;
     // Views that are asked again do not count.
     this.#progress?.(Math.min(this.#taken / this.count, 1));
@@ -178,6 +184,16 @@ export abstract class SurveyTask<Result = unknown> {
 
   protected get count(): number {
     return this.#survey.seats.length;
+  }
+
+  /** What is probably wrong with cameras. */
+  protected get noted(): { note?: string } {
+    const count = this.#inverted.size;
+    if (count === 0) {
+      return {};
+    }
+    const others = count > 1 ? ` (of ${this.count} cameras, ${count} are so)` : "";
+    return { note: `camera ${Math.min(...this.#inverted)}: ${INVERTED}${others}` };
   }
 
   /** @param length the length of the cloud */

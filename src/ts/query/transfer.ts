@@ -33,6 +33,8 @@ export interface Transferred {
   channels: number;
   /** How many cameras gave a value, for each index. */
   seen: Uint32Array<ArrayBuffer>;
+  /** What is probably wrong with a camera; see `CameraView.note`. */
+  note?: string;
 }
 
 export const WEIGHTS = ["distance", "angle", "score"] as const;
@@ -135,6 +137,6 @@ export class TransferTask extends SurveyTask<Transferred> {
         values.set(target, index * channels);
       }
     }
-    return { values, channels, seen };
+    return { values, channels, seen, ...this.noted };
   }
 }
