@@ -12,8 +12,6 @@ import type { Figure, Maker } from "./figure.js";
 import { halo } from "./halo.js";
 import { radius } from "./radius.js";
 import { withFigures } from "./readme.js";
-import { reconstruction } from "./reconstruction.js";
-import { shadows } from "./shadows.js";
 import { Studio } from "./studio.js";
 
 const MAKERS: Record<string, Maker> = {
@@ -21,8 +19,6 @@ const MAKERS: Record<string, Maker> = {
   errors: errorPlot,
   halo,
   radius,
-  reconstruction,
-  shadows,
 };
 const FOLDER = join(root, "tests", "figures");
 

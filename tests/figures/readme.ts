@@ -1,24 +1,12 @@
 // tests/figures/README.md: one section for each figure.
 import type { Figure } from "./figure.js";
 
-const ORDER = [
-  "bunny",
-  "dragon",
-  "room",
-  "rings",
-  "error-against-radius",
-  "radius",
-  "surface-dragon",
-  "surface-bunny",
-  "shadows",
-  "shadows-soft",
-  "shadows-two",
-];
+const ORDER = ["bunny", "dragon", "room", "rings", "error-against-radius", "radius"];
 
 const INTRODUCTION = `# The paper's figures
 
 \`npm run figures\` draws all figures again, with the demo page in Chromium, and measures the numbers of the captions.
-Names after \`--\` choose some (before-after, errors, radius, reconstruction, shadows, fidelity). Viewpoints and lights are in
+Names after \`--\` choose some (before-after, errors, halo, radius). Viewpoints are in
 the coordinates of the files. Some figures need data that is not in the repository (\`HPR_SHARED\`). Without this data, the
 errors against R and the surface of the bunny are not drawn again, and the first figure shows the small bunny from npm.
 [FIDELITY.md](FIDELITY.md) has the errors in numbers.
