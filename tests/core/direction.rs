@@ -118,22 +118,6 @@ fn a_number_fixes_the_bend_from_one_diagonal_away() {
 }
 
 #[test]
-fn both_sides_of_a_shell_are_seen_from_their_sides() {
-    let points = shapes::sphere(&mut Rng::new(34), 4000);
-    let front = along(&points, [0.0, 0.0, -1.0], &Options::default());
-    let back = along(&points, [0.0, 0.0, 3.0], &Options::default());
-    let share = front.count() as f64 / 4000.0;
-    assert!((0.45..0.55).contains(&share), "{share}");
-    let both = front
-        .mask()
-        .iter()
-        .zip(back.mask())
-        .filter(|(a, b)| **a == 1 && *b == 1)
-        .count();
-    assert!(both < 200, "{both}");
-}
-
-#[test]
 fn few_points_and_extreme_sizes_are_answered() {
     let down = [0.0, 0.0, -1.0];
     let o = &Options::default();

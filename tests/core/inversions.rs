@@ -65,27 +65,6 @@ fn the_automatic_scale_belongs_to_the_cloud() {
 }
 
 #[test]
-fn stronger_inversions_see_less() {
-    let points = shapes::bumpy(&mut Rng::new(8), 2000);
-    let count = |options: &Options| ask(&points, FRONT, options).count();
-    let powers = [1.001, 1.1, 1.5, 2.0, 3.0].map(|gamma| count(&power(gamma)));
-    assert!(powers.is_sorted_by(|a, b| a > b), "{powers:?}");
-    let scales = [1e-6, 1e-4, 1e-2, 0.1, 1.0].map(|scale| count(&exponential(scale)));
-    assert!(scales.is_sorted_by(|a, b| a > b), "{scales:?}");
-}
-
-#[test]
-fn points_on_a_plane_are_all_visible_whatever_the_inversion() {
-    let mut points = Vec::new();
-    for i in 0..900 {
-        points.push([f64::from(i % 30) - 14.5, f64::from(i / 30) - 14.5, 0.0]);
-    }
-    for options in [power(1.1), power(4.0), exponential(0.01), exponential(2.0)] {
-        assert_eq!(ask(&points, FRONT, &options).count(), 900, "{options:?}");
-    }
-}
-
-#[test]
 fn what_does_not_fit_is_refused() {
     let cloud = PointCloud::new(&shapes::bumpy(&mut Rng::new(3), 20)).unwrap();
     let refused = |options: Options, name: &str| {

@@ -4,7 +4,7 @@
 use hidden_point_removal::{Error, MAX_POINTS, Options, PointCloud, PointCloudNd};
 
 use crate::common::rng::Rng;
-use crate::common::{ask, sectors, shapes};
+use crate::common::{ask, shapes};
 
 /// Five points that all vote on each other. Two or three of them are visible: the nearest point on
 /// the ray along x, and the points on rays of their own. More than two fifths must be visible.
@@ -17,21 +17,6 @@ fn two_of_five_votes_are_not_enough() {
     assert_eq!(two.count(), 0);
     let three = ask(&[a, b, c, e, f], [0.0; 3], &options);
     assert_eq!(three.indices(), [0, 1, 2, 3, 4]);
-}
-
-/// With a vote or denoising, one sector answers for all.
-#[test]
-fn sectors_of_views_with_votes_and_denoising_give_the_whole_answer() {
-    let cloud = PointCloud::new(&shapes::bumpy(&mut Rng::new(1), 600)).unwrap();
-    for vote in [None, Some(6), Some(0), Some(600)] {
-        for denoise in [None, Some(8), Some(0), Some(600)] {
-            let options = Options::default().vote(vote).denoise(denoise);
-            for count in [1, 3] {
-                let difference = sectors::compare(&cloud, [0.0, 0.5, 3.0], &options, count).err();
-                assert_eq!(difference, None, "vote {vote:?}, denoise {denoise:?}");
-            }
-        }
-    }
 }
 
 #[test]

@@ -6,51 +6,9 @@ use hidden_point_removal::{
 
 use crate::common::flip::distance;
 use crate::common::rng::Rng;
-use crate::common::scenes::KINDS;
-use crate::common::{NOWHERE, ask, shapes};
+use crate::common::{NOWHERE, shapes};
 
 const FRONT: [f64; 3] = [0.0, 0.0, 3.0];
-
-#[test]
-fn a_union_is_what_any_of_the_views_shows() {
-    for kind in KINDS {
-        let scene = kind.scene(5, 60);
-        let mut rng = Rng::new(5);
-        let viewpoints: Vec<_> = (0..5).map(|_| rng.direction().map(|x| x * 6.0)).collect();
-        let options = Options::default();
-        let answers: Vec<_> = viewpoints
-            .iter()
-            .map(|&viewpoint| ask(&scene.points, viewpoint, &options))
-            .collect();
-        let cloud = PointCloud::new(&scene.points).unwrap();
-        for k in 1..=5 {
-            let views = |i: usize| {
-                answers
-                    .iter()
-                    .filter(|answer| answer.mask()[i] == 1)
-                    .count()
-            };
-            let expected: Vec<u32> = (0..60).filter(|&i| views(i as usize) >= k).collect();
-            let answer = cloud
-                .visible_from_at_least(k, &viewpoints, &options)
-                .unwrap();
-            assert_eq!(answer.indices(), expected, "{} from {k}", kind.name);
-            if k == 1 {
-                assert_eq!(
-                    cloud.visible_from_any(&viewpoints, &options).unwrap(),
-                    answer
-                );
-            }
-            let largest = answers
-                .iter()
-                .map(|answer| answer.radius())
-                .fold(0.0, f64::max);
-            assert_eq!(answer.radius(), largest);
-            let mut exponents = answers.iter().filter(|answer| answer.radius() == largest);
-            assert!(exponents.any(|view| view.exponent() == answer.exponent()));
-        }
-    }
-}
 
 #[test]
 fn no_viewpoint_sees_nothing() {
