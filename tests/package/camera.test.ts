@@ -63,25 +63,6 @@ it("a pose and a field of view make the same camera", () => {
   cloud.dispose();
 });
 
-it("workers see the same, also when they share the view", async () => {
-  const cloud = new PointCloud(positions);
-  const camera = cameraFromThree(threeCamera(), 640, 480);
-  for (const workers of [1, 3]) {
-    const remote = await WorkerPointCloud.create(positions, { workers });
-    for (const options of [{}, { exponent: 3 }, { vote: 5 }, { looks: 2 as const }, { within: { distance: 2.2 } }]) {
-      const [answer, expected] = [
-        await remote.visibleFromCamera(camera, options),
-        cloud.visibleFromCamera(camera, options),
-      ];
-      expect(answer.indices).toEqual(expected.indices);
-      expect(answer.pixels).toEqual(expected.pixels);
-      expect(answer.depths).toEqual(expected.depths);
-    }
-    await remote.dispose();
-  }
-  cloud.dispose();
-});
-
 it("what is no camera is refused", () => {
   const cloud = new PointCloud(positions);
   const good = cameraFromThree(threeCamera(), 640, 480);

@@ -63,22 +63,3 @@ it("questions that make no sense are refused", () => {
   }
   cloud.dispose();
 });
-
-it("of several refused views, several workers name the first, as one instance does", async () => {
-  // Every place is farther than 2 from some point, and each by another distance.
-  const far = places.map((place, i) => place.map((x) => x * (2 + i)));
-  const settings = { radius: 2 };
-  const cloud = new PointCloud(positions);
-  const shared = await WorkerPointCloud.create(positions, { workers: 3 });
-  for (const ask of ["coverage", "placeViewpoints"] as const) {
-    const refusal = await Promise.resolve()
-      .then(() => cloud[ask](far, settings))
-      .catch(String);
-    expect(refusal).toContain("radius 2 is smaller");
-    for (let round = 0; round < 5; round++) {
-      expect(await shared[ask](far, settings).catch(String)).toBe(refusal);
-    }
-  }
-  await shared.dispose();
-  cloud.dispose();
-});

@@ -14,24 +14,6 @@ function isPart(part: Uint32Array, whole: Uint32Array): boolean {
   return part.every((index) => all.has(index));
 }
 
-it("drafts hold all that is visible, with the same radius and inversion", () => {
-  const cloud = new PointCloud(positions);
-  const choices = [{}, { exponent: 2 }, { inversion: { exponential: "auto" as const } }, { exponent: 3, vote: 5 }];
-  for (const options of choices) {
-    const draft = cloud.visibleFrom(from, { ...options, draft: true });
-    const exact = cloud.visibleFrom(from, options);
-    const { radius, exponent, evaluations, inversion } = exact;
-    expect(draft).toMatchObject({ radius, exponent, evaluations, inversion, exact: false });
-    expect(exact.exact).toBe(true);
-    expect(isPart(exact.indices, draft.indices)).toBe(true);
-    expect(draft.count).toBeLessThan(cloud.length);
-    // The answer does not depend on earlier questions.
-    expect(cloud.visibleFrom(from, { ...options, draft: true }).indices).toEqual(draft.indices);
-    expect(hiddenPointRemoval(positions, from, options).indices).toEqual(exact.indices);
-  }
-  cloud.dispose();
-});
-
 it("an exact answer does not go on from the draft of a cloud that has changed since", () => {
   const added = Float64Array.from(positions.subarray(0, 3000), (x) => 1.01 * x);
   // With a radius of its own, the flip stays the same.

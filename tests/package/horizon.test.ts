@@ -33,23 +33,6 @@ describe("a horizon", () => {
     expect(mergeVisible([{ positions, ids: left }], viewpoint, options)).toEqual(whole.indices);
   });
 
-  it("lists a point exactly if it would be visible after it was added alone", () => {
-    const own = sphere.subarray(0, 600);
-    const others = sphere.subarray(600, 1200);
-    const horizon = new Horizon(viewpoint, { inversion: { exponential: 0.02 } });
-    horizon.add(own);
-    const listed = horizon.screen(others);
-    const cloud = new PointCloud(own);
-    const alone = Array.from({ length: 200 }, (_, i) => i).filter((i) => {
-      cloud.append(others.subarray(3 * i, 3 * i + 3));
-      const { indices } = cloud.visibleFrom(viewpoint, { inversion: { exponential: 0.02 } });
-      const index = cloud.length - 1;
-      cloud.remove([index]);
-      return indices.includes(index);
-    });
-    expect([...listed]).toEqual(alone);
-  });
-
   it("refuses bad input with a code, and stays as it was", () => {
     const horizon = new Horizon(viewpoint, options);
     horizon.add(sphere);

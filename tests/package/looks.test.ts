@@ -2,7 +2,7 @@
 // readable reference, tests/fidelity/three_looks.py.
 import { readFileSync } from "node:fs";
 import { fileURLToPath } from "node:url";
-import { afterAll, describe, expect, it } from "vitest";
+import { describe, expect, it } from "vitest";
 
 import type { VisibilityOptions } from "hidden-point-removal";
 import { bumpySphere, bunny, problemOf, randomNumbers, readyPackage } from "./support";
@@ -62,18 +62,6 @@ describe("three looks", () => {
     expect(hiddenPointRemoval(sphere, farAway, { looks: 3 })).toEqual(answer);
   });
 
-  it("along a direction are those of a viewpoint far away, in a worker too", async () => {
-    const options: VisibilityOptions = { looks: 3, scores: true };
-    const answer = cloud.visibleFromDirection([0, 0, -2], options);
-    expect(answer.inversion).toEqual(cloud.visibleFrom(farAway, options).inversion);
-    expect(answer.scores).toHaveLength(3000);
-    const far = cloud.visibleFrom([0, 0, 20_000], options).mask();
-    const differing = answer.mask().filter((is, i) => is !== far[i]);
-    expect(differing.length).toBeLessThan(10);
-    using worker = await WorkerPointCloud.create(sphere, { workers: 2 });
-    expect(await worker.visibleFromDirection([0, 0, -2], options)).toEqual(answer);
-  });
-
   it("that a signal may give up are the same, and do not keep the next question waiting", async () => {
     const large = bumpySphere(2, 60_000);
     using worker = await WorkerPointCloud.create(large, { workers: 1 });
@@ -105,31 +93,6 @@ describe("three looks", () => {
     const none = some.visibleFrom(farAway, { looks: 3, scores: true, within: { distance: 0 } });
     expect(none.scores).toEqual(new Float32Array(1001));
   });
-
-  it("go with noise handling and with several viewpoints", () => {
-    const options = { looks: 3, denoise: 8, vote: 6 } as const;
-    const voted = cloud.visibleFrom(farAway, { ...options, scores: true });
-    const { scores } = cloud.visibleFrom(farAway, { looks: 3, denoise: 8, scores: true });
-    expect(voted.scores).toEqual(scores);
-    const viewpoints = [farAway, [5, 0, 0], [0, 5, 0]];
-    const masks = viewpoints.map((viewpoint) => cloud.visibleFrom(viewpoint, { looks: 2 }).mask());
-    const twice = cloud.visibleFromAtLeast(2, viewpoints, { looks: 2 });
-    expect(twice.mask()).toEqual(masks[0]!.map((_, i) => Number(masks.filter((mask) => mask[i] === 1).length >= 2)));
-    expect(twice.inversion).toEqual(cloud.visibleFrom(farAway, { looks: 2 }).inversion);
-    const any = cloud.visibleFromAny(viewpoints, { looks: 2 });
-    expect(any).toEqual(cloud.visibleFromAtLeast(1, viewpoints, { looks: 2 }));
-  });
-
-  it("do not depend on views before them", () => {
-    const before = cloud.visibleFrom(farAway, { looks: 3, scores: true });
-    for (const options of [{}, { exponent: 3 }, { looks: 2 as const }, { inversion: { exponential: 0.1 } }]) {
-      cloud.visibleFrom([0, 0.01, 5], options);
-      expect(cloud.visibleFrom(farAway, { looks: 3, scores: true })).toEqual(before);
-    }
-    const plain = cloud.visibleFrom(farAway);
-    cloud.visibleFrom(farAway, { looks: 3 });
-    expect(cloud.visibleFrom(farAway)).toEqual(plain);
-  });
 });
 
 describe("a surface with noise", () => {
@@ -154,24 +117,6 @@ describe("a surface with noise", () => {
     noisy.remove(auto);
     expect(noisy.noise).not.toBe(await other.noise);
     await other.dispose();
-  });
-
-  it("has a noise of 0 where nothing tells of it, and a finite one for any points", () => {
-    const noise = (count: number, place: (i: number) => number[]) =>
-      new PointCloud(Array.from({ length: count }, (_, i) => place(i)).flat()).noise;
-    const anywhere = (size: number) => Array.from({ length: 3 }, () => size * random());
-    const lattice = (i: number) => [i % 20, Math.floor(i / 20) % 20, Math.floor(i / 400)];
-    expect({
-      none: noise(0, () => []),
-      equal: noise(3000, () => [1, 2, 3]),
-      few: noise(24, () => anywhere(1)),
-      line: noise(3000, (i) => [i, 2 * i, -i]),
-      plane: noise(3000, () => [random(), random(), 2]),
-      outlier: new PointCloud([...sphere, 1e7, 0, 0]).noise,
-    }).toEqual({ none: 0, equal: 0, few: 0, line: 0, plane: 0, outlier: 0 });
-    for (const finite of [noise(8000, lattice), noise(6000, (i) => anywhere(i % 101 === 0 ? 100 : 1))]) {
-      expect(finite >= 0 && finite < Infinity, String(finite)).toBe(true);
-    }
   });
 });
 
@@ -227,30 +172,6 @@ describe("a calibration", () => {
   ])("refuses %s", async (message, stations) => {
     const call = () => scan.calibrate(stations as []);
     expect(await problemOf(call)).toMatchObject({ code: "option", message: expect.stringMatching(message) as string });
-  });
-});
-
-describe("in a worker", () => {
-  const opened: { dispose(): void }[] = [];
-  afterAll(() => {
-    opened.forEach((cloud) => {
-      cloud.dispose();
-    });
-  });
-
-  it.each([1, 2])("of %i threads, the answer is the same", async (workers) => {
-    const inWorker = await WorkerPointCloud.create(sphere, { workers });
-    opened.push(inWorker);
-    for (const options of [{ looks: 3, scores: true }, { looks: 2 }, { looks: 3, vote: 4 }] as VisibilityOptions[]) {
-      const answer = await inWorker.visibleFrom(farAway, options);
-      expect(answer).toEqual(cloud.visibleFrom(farAway, options));
-      expect(answer.scores).toEqual(cloud.visibleFrom(farAway, options).scores);
-    }
-    const viewpoints = [farAway, [5, 0, 0]];
-    const any = await inWorker.visibleFromAny(viewpoints, { looks: 3 });
-    expect(any).toEqual(cloud.visibleFromAny(viewpoints, { looks: 3 }));
-    const refused = await problemOf(() => inWorker.reconstruct(farAway, { looks: 3 }));
-    expect(refused).toMatchObject({ code: "option", message: expect.stringMatching(/looks.*reconstruct/) as string });
   });
 });
 

@@ -1,62 +1,13 @@
 import { describe, expect, it } from "vitest";
 
-import { bumpySphere, bunny, freshPackage, pointsAt, problemOf, randomNumbers, readyPackage } from "./support";
+import { freshPackage, problemOf, readyPackage } from "./support";
 
-const { mergeVisible, PointCloud, HprError } = await readyPackage();
+const { mergeVisible, HprError } = await readyPackage();
 
-type Part = Parameters<typeof mergeVisible>[0][number];
-
-const sphere = bumpySphere(1, 3000);
 const farAway = [0, 0, 5];
 const loose = (value: unknown) => value as never;
 
-/** Divides a cloud at random and keeps the visible points of each part. */
-function visibleParts(points: Float32Array, count: number, viewpoint: number[], radius: number): Part[] {
-  const random = randomNumbers(count);
-  const ids = Array.from({ length: count }, (): number[] => []);
-  for (let i = 0; i < points.length / 3; i++) ids[Math.floor(random() * count)]!.push(i);
-  return ids.map((own, number) => {
-    const xyz = own.flatMap((i) => [...points.subarray(3 * i, 3 * i + 3)]);
-    const { indices } = new PointCloud(xyz).visibleFrom(viewpoint, { radius });
-    const positions = [...indices].flatMap((k) => xyz.slice(3 * k, 3 * k + 3));
-    const forms = [positions, Float32Array.from(positions), Float64Array.from(positions)];
-    return { positions: forms[number % 3]!, ids: indices.map((k) => own[k]!) };
-  });
-}
-
 describe("parts that were seen with one radius", () => {
-  it.each([
-    ["a bumpy sphere", sphere, farAway],
-    ["a bumpy sphere, from inside", sphere, [0.1, 0.2, -0.3]],
-    ["the bunny", bunny(), [0, 5, 20]],
-    ["the bunny, from inside", bunny(), [-1.5, 5, 0]],
-  ])("merge to the answer of the whole: %s", (_, points, viewpoint) => {
-    const { indices, radius } = new PointCloud(points).visibleFrom(viewpoint);
-    for (const count of [1, 2, 5, 40]) {
-      const parts = visibleParts(points, count, viewpoint, radius);
-      expect(mergeVisible(parts, viewpoint, { radius })).toEqual(indices);
-    }
-    const everything = { positions: points, ids: Uint32Array.from({ length: points.length / 3 }, (_, i) => i) };
-    expect(mergeVisible([everything], viewpoint, { radius, inversion: "spherical" })).toEqual(indices);
-  });
-
-  it.each<[string, object]>([
-    ["a power", { inversion: { power: 3 } }],
-    ["a power of a given unit", { radius: 50, inversion: { power: 1.2 } }],
-    ["an exponential", { inversion: { exponential: 0.004 } }],
-    ["an exponential of its own scale", { inversion: { exponential: "auto" } }],
-  ])("merge with the inversion of the answer: %s", (_, options) => {
-    const whole = new PointCloud(sphere).visibleFrom(farAway, options);
-    const together =
-      whole.radius > 0 ? { radius: whole.radius, inversion: whole.inversion } : { inversion: whole.inversion };
-    const parts = [0, 1500].map((first) => {
-      const own = sphere.subarray(3 * first, 3 * first + 4500);
-      const { indices } = new PointCloud(own).visibleFrom(farAway, together);
-      return { positions: pointsAt(own, [...indices]), ids: indices.map((i) => first + i) };
-    });
-    expect(mergeVisible(parts, farAway, together)).toEqual(whole.indices);
-  });
-
   it("are read in double precision if one of them is double, in any order", () => {
     // In single precision 1 + 2⁻⁴⁰ is 1, and both points would be visible.
     const single = { positions: Float32Array.of(0, 0, 1, 5, 5, 5), ids: Uint32Array.of(1, 3) };

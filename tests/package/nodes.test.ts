@@ -298,22 +298,6 @@ describe("recovers from the death of the worker", () => {
     replace(Original);
   });
 
-  it("whenever it dies", async () => {
-    const nodes = split(bumpySphere(1, 3000), 3);
-    const scene = sceneOf(nodes);
-    const errors: unknown[] = [];
-    scene.filter.addEventListener("error", ({ error }) => errors.push(error));
-    for (const z of [5, 4, 3]) {
-      scene.camera.position.fromArray(scene.root.localToWorld(new THREE.Vector3(0, 0, z)).toArray());
-      scene.filter.update(scene.camera);
-      await started.at(-1)?.terminate();
-      await settle(scene);
-      expect(drawnOf(nodes)).toEqual(answerOf(nodes, scene));
-    }
-    expect(errors).toEqual([]);
-    expect(started.length).toBeGreaterThan(1);
-  });
-
   it("while it prepares several nodes", async () => {
     const nodes = split(bumpySphere(1, 3000), 3);
     const scene = sceneOf(nodes);

@@ -3,7 +3,7 @@ import { describe, expect, it } from "vitest";
 
 import { bumpySphere, readyPackage } from "./support";
 
-const { hiddenPointRemoval, PointCloud } = await readyPackage();
+const { PointCloud } = await readyPackage();
 
 const sphere = bumpySphere(1, 2000);
 const cloud = new PointCloud(sphere);
@@ -13,23 +13,6 @@ const farthest = Math.max(
 );
 
 describe("the radius", () => {
-  it.each([
-    ["auto", 0, 0],
-    ["search", 6, 6],
-    ["opposite", 20, 60],
-  ] as const)("is chosen by the rule %s, as autoRadius tells", (rule, fewest, most) => {
-    const chosen = cloud.autoRadius(farAway, rule);
-    expect(chosen.radius).toBeGreaterThanOrEqual(farthest * (1 - 1e-12));
-    expect(chosen.exponent).toBeCloseTo(Math.log10(chosen.radius / farthest), 10);
-    expect(chosen.evaluations).toBeGreaterThanOrEqual(fewest);
-    expect(chosen.evaluations).toBeLessThanOrEqual(most);
-    const visible = cloud.visibleFrom(farAway, { radius: rule });
-    const { radius, exponent, evaluations } = visible;
-    expect({ radius, exponent, evaluations }).toEqual(chosen);
-    expect(visible.indices).toEqual(cloud.visibleFrom(farAway, { radius }).indices);
-    expect(hiddenPointRemoval(sphere, farAway, { radius: rule })).toEqual(visible);
-  });
-
   it("is the same by the three rules where there is nothing to search", () => {
     const none = new PointCloud([]);
     for (const rule of ["auto", "search", "opposite"] as const) {

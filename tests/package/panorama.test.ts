@@ -40,12 +40,6 @@ it("gives ranges, points and areas of a dome", () => {
   }
 });
 
-it("looks up where it is told", () => {
-  const { skyViewFactor, indices } = cloud.panorama([0, 0, 0], { ...size, up: [0, 0, -3] });
-  expect(skyViewFactor).toBeGreaterThan(0.999);
-  expect([indices[0], indices.at(-1) === SKY]).toEqual([SKY, false]);
-});
-
 it("takes parts, and the answers of workers are the same", async () => {
   const worker = await WorkerPointCloud.create(positions, { workers: 2 });
   const mask = Uint8Array.from({ length: 10_000 }, (_, i) => i % 2);
@@ -57,14 +51,6 @@ it("takes parts, and the answers of workers are the same", async () => {
   }
   await expect(worker.panorama([0, 0, 0], { ...size, width: 0 })).rejects.toMatchObject({ code: "option" });
   await worker.dispose();
-});
-
-it("is the same after other questions", () => {
-  const asked = { ...size, looks: 3 as const };
-  const first = cloud.panorama([1, 0.5, 0.2], asked);
-  cloud.visibleFrom([1, 0.5, 0.2], { draft: true });
-  cloud.visibilityMap([0, 0, 9]);
-  expect(cloud.panorama([1, 0.5, 0.2], asked)).toEqual(first);
 });
 
 it("refuses what has no panorama", () => {

@@ -446,27 +446,5 @@ describe("a filter", () => {
       expect(drawn(scenes[0]!.geometry)).toEqual(visibleFrom([3, 0, 5], bumpySphere(0, 500)));
       expect(running.size).toBe(1);
     });
-
-    it("recover from the death of their worker", async () => {
-      const scenes = [sceneOf(adapter, sphere), sceneOf(adapter, other)];
-      const all = scenes.map(({ points }) => filterFor(points));
-      const errors: unknown[] = [];
-      all.forEach((filter, i) => {
-        filter.addEventListener("error", (event) => errors.push(event));
-        filter.update(scenes[i]!.camera);
-      });
-      await Promise.all(all.map((filter) => filter.ready));
-      for (const x of [1, 2, 3]) {
-        await [...running][0]!.terminate();
-        for (const scene of scenes) scene.camera.position.x = x;
-        all.forEach((filter, j) => {
-          filter.update(scenes[j]!.camera);
-        });
-        // Waits for both filters. If a filter has not answered since the last death, it blames itself for the next.
-        await expect.poll(() => drawn(scenes[0]!.geometry)).toEqual(visibleFrom([x, 0, 5], sphere));
-        await expect.poll(() => drawn(scenes[1]!.geometry)).toEqual(visibleFrom([x, 0, 5], other));
-      }
-      expect(errors).toEqual([]);
-    });
   });
 });

@@ -1,4 +1,3 @@
-import { availableParallelism } from "node:os";
 import type threads from "node:worker_threads";
 import { afterEach, beforeEach, describe, expect, it } from "vitest";
 
@@ -54,20 +53,6 @@ describe("several workers", () => {
     expect(await cloud.visibleFrom(farAway)).toEqual(expected[1]);
   });
 
-  it("drop a view that a newer view has overtaken, and a view whose signal aborts", async () => {
-    const cloud = await WorkerPointCloud.create(sphere, { workers: 2 });
-    const running = new AbortController();
-    const asked = [
-      cloud.visibleFrom(farAway, { latest: true, signal: running.signal }),
-      cloud.visibleFrom([0, 0, 6], { latest: true }),
-      cloud.visibleFrom([0, 0, 7], { latest: true }),
-    ];
-    running.abort();
-    const outcomes = (await Promise.allSettled(asked)).map(({ status }) => status);
-    expect(outcomes).toEqual(["rejected", "rejected", "fulfilled"]);
-    expect((await asked[2]!).indices).toEqual(new PointCloud(sphere).visibleFrom([0, 0, 7]).indices);
-  });
-
   it.each([0, 1, 2])("are all gone when number %i dies, and a new cloud works", async (number) => {
     const cloud = await WorkerPointCloud.create(sphere, { workers: 3 });
     const threadsOfCloud = started.slice();
@@ -103,23 +88,6 @@ describe("several workers", () => {
     await cloud.append(more);
     expect(await cloud.visibleFrom(farAway)).toEqual(direct.visibleFrom(farAway));
     await expect.poll(() => started.map(({ threadId }) => threadId === -1)).toEqual([false, true, false]);
-    await cloud.dispose();
-  });
-
-  it("are taken by default for large clouds only, as many as there are cores", async () => {
-    await (await WorkerPointCloud.create(sphere)).dispose();
-    expect(started.splice(0)).toHaveLength(1);
-    const large = bumpySphere(3, 210_000);
-    const cloud = await WorkerPointCloud.create(large);
-    expect(started).toHaveLength(Math.min(availableParallelism(), 4));
-    expect((await cloud.visibleFrom(farAway)).indices).toEqual(new PointCloud(large).visibleFrom(farAway).indices);
-    await cloud.dispose();
-  });
-
-  it("are not taken by default for large clouds in a plane", async () => {
-    const cloud = await WorkerPointCloud.create(bumpySphere(3, 140_000), { dimension: 2 });
-    expect(cloud.length).toBe(210_000);
-    expect(started).toHaveLength(1);
     await cloud.dispose();
   });
 });
