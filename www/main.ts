@@ -2,7 +2,6 @@ import { init } from "hidden-point-removal";
 import { byId } from "./controls/dom.ts";
 import { loadAhead } from "./loaders/index.ts";
 import { sourceOf } from "./page/sources.ts";
-import { showEmbedded } from "./panel/embedded.ts";
 import { bindDrawer } from "./panel/drawer.ts";
 import { bindSheet } from "./panel/sheet.ts";
 import { SAMPLES } from "./samples/samples.ts";
@@ -17,7 +16,6 @@ const first = sourceOf(wishes, location.search);
 loadAhead(first.request);
 // If that fails, the error is reported when a cloud needs it.
 init().catch(() => undefined);
-if (wishes.embed) showEmbedded();
 bindSheet();
 bindDrawer();
 

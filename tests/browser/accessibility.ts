@@ -120,7 +120,6 @@ export const VISITS: Visit[] = [
     steps: [first, unfolded, ...tools, sheetOfKeys, LESSON, JUDGMENT, REFUSED, LOADING],
   },
   { name: "390 × 844", query: `?${SMALL}`, options: PHONE, steps: [first, sheet, unfolded] },
-  { name: "in another page", query: `?${SMALL}&embed=1`, options: WIDE, steps: [first] },
 ];
 
 /** The results in one theme. */

@@ -1,13 +1,13 @@
-// The examples of docs/EMBED.md: its elements and its frame in a foreign page.
+// The examples of docs/EMBED.md: its elements in a foreign page.
 import { afterAll, beforeAll, expect, test } from "vitest";
 import { blocks, promised } from "../package/snippets.js";
 import { asciiPly, ball } from "./clouds.js";
 import { servePage, type Site } from "./site.js";
 import { element, openStranger, settledState } from "./stranger.js";
-import { inNode, openPage, provoke, reached, served, status } from "./support.js";
+import { inNode, served } from "./support.js";
 
 const SCAN = "https://example.org/viewer/";
-const [simple, styled, framed] = blocks("docs/EMBED.md", "html");
+const [simple, styled] = blocks("docs/EMBED.md", "html");
 const [script] = blocks("docs/EMBED.md", "js");
 const positions = ball(900);
 
@@ -72,49 +72,4 @@ test("its style and its slots are the page's", async () => {
   });
   await page.getByText("The scan is not available.").waitFor();
   expect(await page.getByText("One moment").isVisible()).toBe(false);
-});
-
-test("the keys work in the frame, and the page around still scrolls", async () => {
-  served.set(
-    "framed.html",
-    Buffer.from(
-      `<!doctype html><html lang="en"><head><title>Framed</title><link rel="icon" href="data:,"></head><body>${body(framed!)}<div style="height: 3000px"></div></body></html>`,
-    ),
-  );
-  const page = await openPage("framed.html");
-  const frame = page.frameLocator("iframe");
-  const told = frame.locator("#status");
-  await frame.locator('#status[data-state="ready"]').waitFor({ state: "attached" });
-  const viewpoint = () => told.getAttribute("data-viewpoint");
-  const first = await viewpoint();
-  expect(await told.getAttribute("data-total")).toBe("900");
-
-  await page.mouse.move(400, 200);
-  await page.mouse.wheel(0, 100);
-  await expect.poll(() => page.evaluate(() => scrollY)).toBeGreaterThan(50);
-  expect(await viewpoint()).toBe(first);
-  await page.evaluate(() => {
-    scrollTo(0, 0);
-  });
-  await page.mouse.click(400, 200);
-  await page.mouse.wheel(0, 100);
-  await expect.poll(viewpoint).not.toBe(first);
-  expect(await page.evaluate(() => scrollY)).toBe(0);
-  const zoomed = await viewpoint();
-  await page.keyboard.press("ArrowLeft");
-  await expect.poll(viewpoint).not.toBe(zoomed);
-  await expect.poll(() => frame.getByRole("status").textContent()).toMatch(/of 900 points/);
-  expect(await frame.getByRole("link", { name: "Whole page" }).isVisible()).toBe(true);
-});
-
-test("a frame whose file cannot be opened shows only the error, and no sample instead", async () => {
-  provoke(/404/);
-  const page = await openPage("?src=clouds/missing.ply&embed=1");
-  const { sentence, total } = await reached(page, "error");
-  expect(sentence).toMatch(/missing\.ply could not be downloaded/);
-  expect(await page.locator("#message p").textContent()).toBe(sentence);
-  await page.waitForTimeout(500);
-  expect(total).toBeUndefined();
-  expect(await reached(page, "error")).toMatchObject({ sentence });
-  expect((await status(page)).total).toBeUndefined();
 });

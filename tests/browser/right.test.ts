@@ -5,7 +5,6 @@ import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
 import { oracleFor } from "../../www/compare/oracles.js";
 import { Projected, zBuffer } from "../../www/compare/zbuffer.js";
-import { readFaces } from "../../www/loaders/faces.js";
 import { make as makeRoom } from "../../www/samples/living-room.js";
 import { grid, type Mesh } from "../../www/samples/mesh.js";
 import { make as makeRings, skinOfRings } from "../../www/samples/rings.js";
@@ -85,41 +84,6 @@ test("the airplane's skin is closed: each edge has two triangles", () => {
   }
   expect([...edges.values()].every((count) => count === 2)).toBe(true);
   expect(new Set(triangles).size).toBe(makeRings().positions.length / 3);
-});
-
-test("faces of the user's files are read and cut into triangles", async () => {
-  const read = (content: string | Uint8Array, vertices = 5) => {
-    const blob = new Blob([typeof content === "string" ? content : new Uint8Array(content)]);
-    return readFaces({ name: "mesh", blob }, vertices).then((triangles) => [...triangles]);
-  };
-  const obj = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1/1/1 2//1 3\nf -4 -3 -2 -1\nv 0 0 1\nf 1 2 3 4 5\n";
-  expect(await read(obj)).toEqual([0, 1, 2, 0, 1, 2, 0, 2, 3, 0, 1, 2, 0, 2, 3, 0, 3, 4]);
-  const header = (format: string) =>
-    `ply\nformat ${format} 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\nelement face 2\nproperty uchar flag\nproperty list uchar int vertex_indices\nend_header\n`;
-  expect(await read(`${header("ascii")}${"0 0 0\n".repeat(5)}\n7 3 0 1 2\n7 4 1 2 3 4\n`)).toEqual([
-    0, 1, 2, 1, 2, 3, 1, 3, 4,
-  ]);
-  const rows = new DataView(new ArrayBuffer(60 + 14 + 18));
-  let at = 60;
-  for (const face of [
-    [0, 1, 2],
-    [1, 2, 3, 4],
-  ]) {
-    rows.setUint8(at, 7);
-    rows.setUint8(at + 1, face.length);
-    face.forEach((corner, i) => {
-      rows.setInt32(at + 2 + 4 * i, corner, true);
-    });
-    at += 2 + 4 * face.length;
-  }
-  expect(await read(Buffer.concat([text(header("binary_little_endian")), new Uint8Array(rows.buffer)]))).toEqual([
-    0, 1, 2, 1, 2, 3, 1, 3, 4,
-  ]);
-  await expect(read(obj, 4)).rejects.toThrow("mesh cannot be read: it has faces whose points are missing");
-  await expect(read(`${header("ascii")}${"0 0 0\n".repeat(5)}7 3 0 1 2\n`)).rejects.toThrow("it ends after 1 of the");
-  await expect(
-    read(Buffer.concat([text(header("binary_little_endian")), new Uint8Array(rows.buffer, 0, 80)])),
-  ).rejects.toThrow();
 });
 
 test("the scanner of the street sees all points that its own beams met", async () => {

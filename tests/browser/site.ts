@@ -73,6 +73,15 @@ export function launchBrowser(...args: string[]): Promise<Browser> {
   return chromium.launch({ executablePath: process.env["HPR_CHROMIUM"] ?? "/usr/bin/chromium", args });
 }
 
+/** Leaves the picture alone on pages that are opened later. */
+export async function hideControls(page: Page): Promise<void> {
+  await page.addInitScript(() => {
+    const sheet = new CSSStyleSheet();
+    sheet.replaceSync("#verbs, #drawer, #signs, #marks { display: none }");
+    document.adoptedStyleSheets.push(sheet);
+  });
+}
+
 /** Adds a style in a way that the page's security policy allows. */
 export async function addStyle(page: Page, css: string): Promise<void> {
   await page.evaluate((text) => {

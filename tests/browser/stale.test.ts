@@ -5,7 +5,7 @@
 import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
 import { fourBalls } from "./balls.js";
-import { addStyle } from "./site.js";
+import { addStyle, hideControls } from "./site.js";
 import { openReady, served, upToDate } from "./support.js";
 
 const POINTS = Number(process.env["HPR_STALE_POINTS"] ?? 100_000);
@@ -111,11 +111,11 @@ test(
   { timeout: 900_000 },
   async () => {
     served.set("clouds/four-balls.ply", fourBalls(POINTS));
-    const query = "?src=clouds/four-balls.ply&up=y&view=0,1,8.5&embed=1&theme=dark&color=plain&size=2";
-    const page = await openReady(query, { viewport: SIZE, deviceScaleFactor: 1 });
+    const query = "?src=clouds/four-balls.ply&up=y&view=0,1,8.5&theme=dark&color=plain&size=2";
+    const page = await openReady(query, { viewport: SIZE, deviceScaleFactor: 1 }, hideControls);
     // Software drawing of millions of points takes long.
     page.setDefaultTimeout(300_000);
-    await addStyle(page, "#signs, #marks, #whole-page { display: none } #view { outline: none !important }");
+    await addStyle(page, "#view { outline: none !important }");
     await record(page);
     for (let i = 0; i < PRESSES; i++) {
       await page.locator("#view").press("ArrowLeft");

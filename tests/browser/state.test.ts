@@ -71,7 +71,7 @@ test("at the first view and with the usual settings the address is empty", async
 
 test("a message names everything in the address that is not possible", async () => {
   const page = await openReady(
-    "?sample=bunny&radius=-1&inversion=power:17&freeze=1&hidden=maybe&size=0&fov=400&up=x&target=1,2&embed=yes",
+    "?sample=bunny&radius=-1&inversion=power:17&freeze=1&hidden=maybe&size=0&fov=400&up=x&target=1,2",
   );
   const message = (await page.locator("#message p").textContent())!;
   const named = [
@@ -83,7 +83,6 @@ test("a message names everything in the address that is not possible", async () 
     /field of view/,
     /side that is up/,
     /target/,
-    /embed/,
   ];
   for (const name of named) expect(message).toMatch(name);
   const usual = await openReady("?sample=bunny");
@@ -104,30 +103,6 @@ test("the settings of one cloud do not go to the next", async () => {
   const query = await written(page);
   expect(new URLSearchParams(query).get("hidden")).toBe("shown");
   for (const gone of ["view", "freeze", "size", "radius"]) expect(query).not.toContain(`${gone}=`);
-});
-
-test("?embed=1 shows only the picture", async () => {
-  const page = await openReady("?sample=dragon_res4&embed=1");
-  await upToDate(page);
-  const box = (await page.locator("#view").boundingBox())!;
-  expect(box).toMatchObject({ x: 0, y: 0, width: 1000, height: 700 });
-  for (const chrome of ["#sheet", "#hidden-points", "#tools", "#progress"]) {
-    expect(await page.locator(chrome).isVisible()).toBe(false);
-  }
-  expect((await status(page)).total).toBe(5205);
-
-  // Screen readers get the answer. Hidden tools do not take the drags. The link opens the whole page in the same state.
-  await expect.poll(() => page.getByRole("status").textContent()).toMatch(/of 5,205 points/);
-  await page.locator("#view").focus();
-  await page.keyboard.press("s");
-  await page.keyboard.press("ArrowLeft");
-  expect(await page.locator("#stage").getAttribute("data-uses")).toBeNull();
-  const now = await written(page);
-  const [whole] = await Promise.all([
-    page.context().waitForEvent("page"),
-    page.getByRole("link", { name: "Whole page" }).click(),
-  ]);
-  expect(new URL(whole.url()).search).toBe(now.replace("&embed=1", ""));
 });
 
 test("data-busy is 1 from a change until its answer is there", async () => {

@@ -7,7 +7,7 @@
 import { mkdirSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import sharp from "sharp";
-import { launchBrowser, servePage } from "./site.js";
+import { hideControls, launchBrowser, servePage } from "./site.js";
 
 /** Twice the size on the page, for screens with two device pixels for each CSS pixel. */
 const WIDTH = 168;
@@ -22,7 +22,8 @@ const site = await servePage();
 const browser = await launchBrowser();
 for (const sample of SAMPLES) {
   const page = await browser.newPage({ viewport: { width: SCALE * WIDTH, height: SCALE * HEIGHT } });
-  await page.goto(`${site.address}?sample=${sample}&embed=1`);
+  await hideControls(page);
+  await page.goto(`${site.address}?sample=${sample}`);
   await page.locator('#status[data-state="ready"][data-busy="0"]').waitFor({ state: "attached", timeout: 120_000 });
   await page.waitForTimeout(1000);
   const picture = sharp(await page.locator("#view").screenshot()).resize(WIDTH, HEIGHT);

@@ -231,14 +231,6 @@ test("a finger picks and labels; a long label stays in the picture, and its Remo
   expect(remove.height).toBe(44);
 });
 
-test("?embed=1 has no tools, but both sides of the divider have captions", async () => {
-  const page = await openReady("?sample=dragon_res4&embed=1&compare=0.4");
-  expect(await page.locator("#tools").isVisible()).toBe(false);
-  const note = page.locator("#compare-note span");
-  expect(await note.allTextContents()).toEqual(["All points", "Seen from here"]);
-  for (const side of await note.all()) expect(await side.isVisible()).toBe(true);
-});
-
 test("a label is measured once, however often the camera moves", async () => {
   const page = await openBall();
   await page.evaluate(() => {

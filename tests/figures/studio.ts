@@ -1,7 +1,7 @@
 // The demo page as a camera: it is opened by its address, and photographed when its picture is up to date.
 import type { Browser, BrowserContextOptions, Page } from "playwright-core";
 
-import { launchBrowser, servePage, type Site } from "../browser/site.js";
+import { hideControls, launchBrowser, servePage, type Site } from "../browser/site.js";
 
 /** The parameters of the page's address. Several values of one parameter follow one another. */
 export type Query = Record<string, string | number | readonly string[]>;
@@ -51,8 +51,9 @@ export class Studio {
     const entries = Object.entries(query).flatMap(([name, value]) => [value].flat().map((one) => [name, String(one)]));
     // The paper has one hull.
     const looks = "looks" in query ? [] : [["looks", "0"]];
-    const address = `?${new URLSearchParams([...entries, ...looks, ["embed", "1"]]).toString()}`;
+    const address = `?${new URLSearchParams([...entries, ...looks]).toString()}`;
     return this.#withPage(size, async (page) => {
+      await hideControls(page);
       await page.goto(this.#site.address + address);
       await page
         .locator('#status:is([data-state="ready"][data-busy="0"], [data-state="error"])')

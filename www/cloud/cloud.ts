@@ -29,8 +29,6 @@ export interface LoadedCloud {
   origin?: Uint32Array;
   /** Whether the points are the rows and columns of a picture. Then points without a position are usual. */
   isGrid?: boolean;
-  /** Whether the file has faces, and the positions are all of its vertices in the order of the file. */
-  isMesh?: boolean;
   /** Sentences about the cloud that the user has to read. */
   notes?: string[];
   /** The columns of a table that were taken for x, y and z, if other ones may have been meant. */
@@ -77,10 +75,7 @@ export interface Cloud {
 }
 
 /** A cloud ready to draw, with the file's own coordinates and the loader's words about it. */
-export interface PreparedCloud extends Pick<
-  LoadedCloud,
-  "positions" | "isMesh" | "notes" | "columnsAt" | "streamed" | "taken"
-> {
+export interface PreparedCloud extends Pick<LoadedCloud, "positions" | "notes" | "columnsAt" | "streamed" | "taken"> {
   cloud: Cloud;
   /** A copy of the positions for the hull's worker, which keeps what it gets. */
   copy: Float32Array | Float64Array;

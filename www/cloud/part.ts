@@ -13,7 +13,6 @@ export function partOf(cloud: LoadedCloud, kept: Uint32Array): LoadedCloud {
   };
   return {
     ...cloud,
-    isMesh: false,
     origin: cloud.origin ? picked(cloud.origin, kept, 1) : kept,
     positions: picked(positions, kept, 3),
     colors: colors && picked(colors, kept, 3),

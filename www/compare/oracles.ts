@@ -1,5 +1,4 @@
 import { download } from "../loaders/download.ts";
-import { readFaces } from "../loaders/faces.ts";
 import type { Truth } from "../samples/generator.ts";
 import { generatorOf } from "../samples/generators.ts";
 import type { KnownSurface } from "../samples/samples.ts";
@@ -9,14 +8,6 @@ import { meshOracle, type Oracle } from "./tracer.ts";
 /** The truth about a cloud whose surface is known. Questions and answers are in the coordinates of `positions`. */
 export async function oracleFor(surface: KnownSurface, positions: Float32Array): Promise<Oracle> {
   if ("faces" in surface) return meshOracle({ positions, triangles: await facesAt(surface.faces) });
-  if ("file" in surface) {
-    const name = "Its file";
-    const blob = typeof surface.file === "string" ? await download(name, surface.file, () => undefined) : surface.file;
-    return meshOracle({
-      positions,
-      triangles: await readFaces({ name, blob }, positions.length / 3),
-    });
-  }
   const { truth } = await generatorOf(surface.sample);
   return oracleOf(truth!());
 }

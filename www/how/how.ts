@@ -58,7 +58,7 @@ export async function showHow(viewer: Viewer, store: Store): Promise<void> {
     dialog.remove();
   });
   const { surface } = viewer.scene;
-  if (typeof surface !== "string") {
+  if (surface) {
     traced(viewer.scene, surface, at, closing.signal)
       .then((seen) => {
         lesson.setTruth(seen);

@@ -22,13 +22,12 @@ export function forgetAhead(): void {
 
 /**
  * Loads a cloud in its own worker. So a large file does not block the page, and its
- * memory is freed when the worker ends. `onPoints`: takes the points that have been read so far; see `LoadReply`.
+ * memory is freed when the worker ends.
  */
 export function loadCloud(
   request: LoadRequest,
   signal: AbortSignal,
   onProgress: (step: string, fraction: number | null) => void,
-  onPoints: (points: Float32Array, first: [number, number, number]) => void = () => undefined,
 ): Promise<PreparedCloud> {
   const loading = ahead?.request === request ? ahead.loading : new Loading(request);
   ahead = null;
@@ -38,7 +37,6 @@ export function loadCloud(
     });
     loading.listen((reply) => {
       if (reply.kind === "progress") onProgress(reply.step, reply.fraction);
-      else if (reply.kind === "points") onPoints(reply.points, reply.first);
       else if (reply.kind === "cloud") resolve(reply.prepared);
       else reject(new LoadProblem(reply.sentence, reply.rest));
     }, reject);

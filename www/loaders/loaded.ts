@@ -4,7 +4,7 @@ import type { CloudFile, Reading } from "../../src/ts/formats/cloud-file.js";
 import { attributesOf } from "./attributes.ts";
 
 /** The file to read, the largest number of points to keep, and the listener for the progress. */
-export interface Loading extends Pick<Reading, "name" | "onProgress" | "onPoints" | "base"> {
+export interface Loading extends Pick<Reading, "name" | "onProgress" | "base"> {
   blob: Blob;
   limit: number;
   damaged?: boolean | undefined;
@@ -17,7 +17,7 @@ const MOST_DECIMALS = 12;
 
 /** What the page keeps of a file. */
 export function loaded(name: string, file: CloudFile): LoadedCloud {
-  const { positions, notes, axes, areAxesPlain, columnsAt, isGrid, isMesh, up, stations, crs, las } = file;
+  const { positions, notes, axes, areAxesPlain, columnsAt, isGrid, up, stations, crs, las } = file;
   const { facts, ...known } = attributesOf(file);
   return {
     positions,
@@ -26,7 +26,6 @@ export function loaded(name: string, file: CloudFile): LoadedCloud {
     notes: [...(axes !== undefined && areAxesPlain === false ? [`${name}: ${axes}.`] : []), ...notes.map(sentence)],
     ...(columnsAt && areAxesPlain === false && { columnsAt }),
     ...(isGrid && { isGrid }),
-    ...(isMesh !== undefined && { isMesh }),
     ...((up ?? stations) && { taken: { ...(up && { up }), ...(stations && { stations }) } }),
   };
 }

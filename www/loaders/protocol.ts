@@ -22,12 +22,8 @@ export interface ReadOptions {
   streamFrom?: number;
 }
 
-/** The replies: any number of progress steps and points, then the cloud or an error. `fraction` is null if it is not known. */
+/** The replies: any number of progress steps, then the cloud or an error. `fraction` is null if it is not known. */
 export type LoadReply =
   | { kind: "progress"; step: string; fraction: number | null }
-  /**
-   * Points that have been read, measured from the first one of the file. They are shown until the cloud is complete.
-   */
-  | { kind: "points"; points: Float32Array; first: [number, number, number] }
   | { kind: "cloud"; prepared: PreparedCloud }
   | { kind: "problem"; sentence: string; rest: Rest | undefined };

@@ -11,7 +11,7 @@ const number = new Intl.NumberFormat("en-US");
 /** Reads several files into one cloud. A file that cannot be read is named in a note, and the others are kept. */
 export async function readSeveral(
   files: readonly File[],
-  { limit, onProgress, onPoints }: Omit<Loading, "name" | "blob">,
+  { limit, onProgress }: Omit<Loading, "name" | "blob">,
 ): Promise<LoadedCloud> {
   const whole = files.reduce((sum, { size }) => sum + size, 0);
   const problems: string[] = [];
@@ -19,7 +19,6 @@ export async function readSeveral(
   let done = 0;
   // Of all points together, every so many-th is kept.
   let step = 1;
-  let from: readonly number[] | null = null;
   for (const file of files) {
     const { name } = file;
     const reading: Loading = {
@@ -28,12 +27,6 @@ export async function readSeveral(
       limit,
       onProgress: (fraction) => {
         onProgress?.((done + fraction * file.size) / Math.max(1, whole));
-      },
-      onPoints: (points, first) => {
-        // All points are measured from the first one of the first file.
-        from ??= first;
-        for (let i = 0; i < points.length; i++) points[i]! += first[i % 3]! - from[i % 3]!;
-        onPoints?.(points, first);
       },
     };
     try {

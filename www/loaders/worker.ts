@@ -25,10 +25,6 @@ const progress = (step: string, fraction: number | null) => {
   post({ kind: "progress", step, fraction });
 };
 
-const onPoints = (points: Float32Array, first: [number, number, number]) => {
-  post({ kind: "points", points, first }, [points.buffer]);
-};
-
 self.onmessage = async ({ data: request }: MessageEvent<LoadRequest>) => {
   try {
     const prepared = prepareCloud(await load(request));
@@ -79,7 +75,7 @@ async function load(request: LoadRequest): Promise<LoadedCloud> {
   const { limit = MAX_POINTS } = request;
   if (request.kind === "files") {
     const { readSeveral } = await import("./several.ts");
-    return readSeveral(request.files, { limit, onProgress, onPoints });
+    return readSeveral(request.files, { limit, onProgress });
   }
   const { streamFrom, skipNonFinite, damaged, chosen } = request;
   const check = (cloud: LoadedCloud) => checkedCloud(name, cloud, skipNonFinite === true);
@@ -94,9 +90,7 @@ async function load(request: LoadRequest): Promise<LoadedCloud> {
     const remote = await downloadRanges(name, request.url, downloading);
     if ("read" in remote) {
       const { readCopc } = await import("./las/copc.ts");
-      return check(
-        await readCopc({ name, limit, streamFrom, onProgress: downloading, onPoints }, remote.read, request.url),
-      );
+      return check(await readCopc({ name, limit, streamFrom, onProgress: downloading }, remote.read, request.url));
     }
     blob = remote.blob;
   } else {
@@ -107,5 +101,5 @@ async function load(request: LoadRequest): Promise<LoadedCloud> {
   const base = request.kind === "url" ? new URL(".", request.url).href : undefined;
   // Samples do not need it, and the first cloud is one.
   const { readCloud } = await import("./read.ts");
-  return check(await readCloud({ name, blob, limit, streamFrom, onProgress, onPoints, base, damaged, chosen }));
+  return check(await readCloud({ name, blob, limit, streamFrom, onProgress, base, damaged, chosen }));
 }

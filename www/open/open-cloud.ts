@@ -8,8 +8,7 @@ import type { Sample } from "../samples/samples.ts";
 import type { Settings } from "../settings/settings.ts";
 import { type AskedView, findHome, type Home, inReachOnly } from "../view/framing.ts";
 import type { Opened } from "../view/viewer.ts";
-import type { Previewed } from "../view/waiting-room.ts";
-import { surfaceOf, usableColor } from "./usable.ts";
+import { usableColor } from "./usable.ts";
 import { touchingSize, usualLook } from "./usual.ts";
 
 /** A cloud to be opened, and the way in which it is to be shown. */
@@ -33,8 +32,6 @@ export interface Place {
   shared: boolean;
   signal: AbortSignal;
   onProgress: (step: string, fraction: number | null) => void;
-  /** Shows points of the file while it is being read, and then all of its points until the first answer is there. */
-  preview?: { points: (points: Float32Array, up: Up) => void; cloud: (shown: Previewed) => void };
 }
 
 /** A cloud that can be shown, and everything that changes with it. */
@@ -65,8 +62,6 @@ const SHARED_BELOW = 200_000;
  * first picture is drawn, and a draft and the answer that goes on from it are the first worker's work alone.
  */
 const hasFewCores = () => navigator.hardwareConcurrency <= 2;
-/** From this number of points on, all points are shown until the first answer is there. */
-const PREVIEWED_FROM = 200_000;
 
 /** Loads a cloud and finds its first answer. Nothing is shown yet, and a failure leaves nothing behind. */
 export async function openCloud(
@@ -78,20 +73,9 @@ export async function openCloud(
   const { name } = request.kind === "files" ? request.files[0]! : request;
   // The WebAssembly is downloaded beside the cloud. If that fails, the error is reported when the cloud needs it.
   init().catch(() => undefined);
-  const preview = { isShown: false };
-  const { cloud, positions, copy, ...loaded } = await loadCloud(
-    request,
-    signal,
-    (step, fraction) => {
-      onProgress(sentence(step, request.name, fraction), fraction);
-    },
-    (points, first) => {
-      const up = wished.up ?? usualLook(sample, name, undefined, first).up;
-      if (signal.aborted) return;
-      preview.isShown = true;
-      place.preview?.points(points, up);
-    },
-  );
+  const { cloud, positions, copy, ...loaded } = await loadCloud(request, signal, (step, fraction) => {
+    onProgress(sentence(step, request.name, fraction), fraction);
+  });
   const usual = usualLook(sample, name, loaded.taken?.up, cloud.center);
   const { view, places, notes: farNotes } = inReachOnly(cloud, wanted, wished, place.asked);
   const own: Partial<Settings> = {
@@ -108,8 +92,6 @@ export async function openCloud(
     wished.color !== undefined,
   );
   own.color = color;
-  const surface = surfaceOf(request, sample, loaded.isMesh);
-
   const { fieldOfView: fov, up } = { ...usual, ...wished };
   const stations = loaded.taken?.stations ?? [];
   const [station] = stations;
@@ -120,13 +102,6 @@ export async function openCloud(
     return findHome(cloud, upward, sameUp ? sample : null, sameUp ? (asked ?? taken) : null, lens, whole);
   };
   const home = homeFrom(view)(up);
-  // The answer for a small cloud comes so soon that a picture of all points would only delay it. The picture waits for
-  // the first word of the worker, because the first drawing blocks the page's thread, and the worker with it.
-  let isWhole = preview.isShown || cloud.count >= PREVIEWED_FROM;
-  const previewCloud = () => {
-    if (isWhole && !signal.aborted) place.preview?.cloud({ cloud, home, look: { ...usual, ...wished } });
-    isWhole = false;
-  };
   // The worker takes the copy. The page keeps the file's own coordinates for the tools.
   const shared = place.shared && cloud.count < SHARED_BELOW;
   const made = (given: Float32Array | Float64Array, report: (fraction: number) => void) =>
@@ -138,7 +113,6 @@ export async function openCloud(
     });
   const report = (fraction: number) => {
     onProgress(sentence("Preparing", request.name, fraction), fraction);
-    if (fraction > 0) previewCloud();
   };
   // A worker that hangs is replaced once.
   const worker = await made(copy, report).catch((error: unknown) => {
@@ -157,7 +131,16 @@ export async function openCloud(
     }
     const answer = await inquiry.first(own.freeze ?? home.viewpoint, { ...place.settings(), ...own });
     signal.throwIfAborted();
-    const opened = { cloud, positions, inquiry, home, answer, findHome: homeFrom(view), surface, stations };
+    const opened = {
+      cloud,
+      positions,
+      inquiry,
+      home,
+      answer,
+      findHome: homeFrom(view),
+      stations,
+      ...(sample?.surface && { surface: sample.surface }),
+    };
     return {
       opened,
       settings: own,

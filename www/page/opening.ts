@@ -42,7 +42,7 @@ export class Opening {
   /** The view that was asked for. It stays in the address although it is the first view. */
   askedView: AskedView | null = null;
   readonly #parts: Parts;
-  readonly #usual: Sample | null;
+  readonly #usual: Sample;
   readonly #picker: SamplePicker;
   readonly #progress = new Progress(() => {
     this.#stop();
@@ -51,8 +51,8 @@ export class Opening {
   /** The cloud that is being loaded. */
   #source: Source | null = null;
 
-  /** `usual`: the sample that replaces a first cloud that cannot be opened. `null`: only the error is shown. */
-  constructor(parts: Parts, usual: Sample | null) {
+  /** `usual`: the sample that replaces a first cloud that cannot be opened. */
+  constructor(parts: Parts, usual: Sample) {
     this.#parts = parts;
     this.#usual = usual;
     this.#picker = new SamplePicker((sample) => {
@@ -81,8 +81,7 @@ export class Opening {
   }
 
   #begin(source: Source): void {
-    const { message, viewer } = this.#parts;
-    viewer.endPreview();
+    const { message } = this.#parts;
     if (source.notes.length > 0) message.show(source.notes.join(" "));
     // The sentence about the cloud that could not be opened stays until the user does something else.
     else if (source.insteadOf === undefined) message.hide();
@@ -106,14 +105,6 @@ export class Opening {
       onProgress: (step, fraction) => {
         if (insteadOf === undefined) status.loading(step);
         this.#progress.show(fraction);
-      },
-      preview: {
-        points: (points, up) => {
-          viewer.preview(points, up);
-        },
-        cloud: (previewed) => {
-          viewer.previewCloud(previewed);
-        },
       },
     });
     const more = [...ready.refusals, ...ready.notes];
@@ -181,7 +172,6 @@ export class Opening {
   #end(): void {
     this.#source = null;
     this.#progress.hide();
-    this.#parts.viewer.endPreview();
   }
 
   /** Gives up the cloud that is being loaded; the one on screen stays. */
@@ -204,8 +194,8 @@ export class Opening {
     notices.error(sentence, actions);
     this.#picker.restore();
     address.giveUp();
-    // The page does not stay empty, but a frame in another page shows what was asked for or nothing.
-    if (viewer.cloud === null && this.#usual && source.sample !== this.#usual) {
+    // The page does not stay empty.
+    if (viewer.cloud === null && source.sample !== this.#usual) {
       void this.open({ ...fromSample(this.#usual), insteadOf: sentence });
     }
   }

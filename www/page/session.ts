@@ -37,7 +37,7 @@ export function startSession(wishes: Wishes, first: Source): void {
   const settings = { ...USUAL_SETTINGS, ...wishes.settings };
   // Places in space belong to a cloud, and are set with the cloud.
   const store = new Store({ ...settings, freeze: null });
-  const viewer = new Viewer(byId("view", HTMLCanvasElement), store, wishes.embed, coveredHeight);
+  const viewer = new Viewer(byId("view", HTMLCanvasElement), store, false, coveredHeight);
   new ResizeObserver(() => {
     viewer.stage.refit();
   }).observe(byId("verbs"));
@@ -59,7 +59,7 @@ export function startSession(wishes: Wishes, first: Source): void {
   };
   const workshop: Workshop = new Workshop(viewer, store, actions);
   const parts = { viewer, store, panel, address, workshop, status, message, notices };
-  const opening: Opening = new Opening(parts, wishes.embed ? null : sampleNamed(wishes.sample));
+  const opening: Opening = new Opening(parts, sampleNamed(wishes.sample));
   const storytelling: Storytelling = new Storytelling({ viewer, store, address, workshop, opening });
   wire({ ...parts, turning, signs: new Signs(store) });
 

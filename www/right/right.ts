@@ -37,24 +37,28 @@ export async function showRight(viewer: Viewer): Promise<void> {
 
   const { surface } = viewer.scene;
   const stations = judges(viewer);
-  if (typeof surface === "string" && stations.length === 0) {
-    body.append(make("p", {}, `Nobody knows which points of this cloud are visible in truth. ${surface}`));
+  if (!surface && stations.length === 0) {
+    body.append(
+      make(
+        "p",
+        {},
+        "Nobody knows which points of this cloud are visible in truth: it has no true surface, and no stations.",
+      ),
+    );
     return;
   }
   const progress = make("progress", { max: "1", "aria-label": "Judging" });
   const onProgress = (share: number) => {
     progress.value = share;
   };
-  const words =
-    typeof surface === "string"
-      ? "A station sees the points that it has measured. From each station, three methods are asked."
-      : "A ray goes from the eye to each point. Those that the true surface stops are hidden.";
+  const words = surface
+    ? "A ray goes from the eye to each point. Those that the true surface stops are hidden."
+    : "A station sees the points that it has measured. From each station, three methods are asked.";
   body.append(make("p", {}, words), progress);
   try {
-    const judged =
-      typeof surface === "string"
-        ? byStations(await judgeByStations(viewer, stations, onProgress, closing.signal), stations.length)
-        : judgment(await judge(viewer, surface, onProgress, closing.signal));
+    const judged = surface
+      ? judgment(await judge(viewer, surface, onProgress, closing.signal))
+      : byStations(await judgeByStations(viewer, stations, onProgress, closing.signal), stations.length);
     body.replaceChildren(...judged);
   } catch (error) {
     if (closing.signal.aborted) return;

@@ -18,8 +18,6 @@ export interface Wishes {
   story: StoryName | null;
   /** Whether the address asks for nothing, but maybe for whether the picture turns. */
   isFirst: boolean;
-  /** Whether only the picture is shown. */
-  embed: boolean;
   /** The settings that are in the address. */
   settings: Partial<Settings>;
   notes: string[];
@@ -82,7 +80,6 @@ export function readAddress(search: string, samples: readonly string[]): Wishes 
     stream: read("stream", PARAMETERS.stream) ?? null,
     turns: turn === undefined ? isFirst : turn === "1",
     isFirst,
-    embed: read("embed", PARAMETERS.embed) === "1",
     settings,
     notes,
   };

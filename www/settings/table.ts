@@ -191,10 +191,6 @@ export const PARAMETERS = {
     ...oneOf<StoryName>("measure", "label", "survey"),
     otherwise: "none is told",
   }),
-  embed: parameter<"0" | "1">({
-    ...oneOf("0", "1"),
-    otherwise: "the controls are shown",
-  }),
 };
 
 export type ParameterName = keyof typeof PARAMETERS;

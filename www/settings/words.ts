@@ -92,10 +92,6 @@ export const PARAMETER_WORDS: Record<keyof typeof PARAMETERS, Words> = {
     is: "a story; it sets everything else",
     without: "none",
   },
-  embed: {
-    is: "whether the picture is alone, for a frame",
-    without: "`0`",
-  },
 };
 
 function powerOfTen(value: number): string {

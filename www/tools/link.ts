@@ -2,7 +2,6 @@
 import { MARK_PARAMETERS, type MarkParameter } from "../settings/address.ts";
 import { PLACE } from "../settings/kinds.ts";
 import type { Label } from "./label.ts";
-import type { LateTool } from "./late-tool.ts";
 import type { Measure } from "./measure.ts";
 import { LONGEST_NAME, type Station } from "./stations/station.ts";
 import type { Stations } from "./stations/stations.ts";
@@ -15,7 +14,7 @@ const LONGEST_LABEL = 80;
 export interface Marked {
   measure: Measure;
   label: Label;
-  stations: LateTool<Stations>;
+  stations: Stations;
 }
 
 export interface Link {
@@ -38,7 +37,7 @@ export function linkOf({ measure, label, stations }: Marked): Link {
   const parameters: Link["parameters"] = {
     measure: measure.pairs.map((ends) => ends.join()),
     label: label.texts.map(({ index, text }) => `${index},${text}`),
-    station: (stations.here?.all ?? []).map(({ name, at }) => `${at.join()},${name}`),
+    station: stations.all.map(({ name, at }) => `${at.join()},${name}`),
   };
   const left: string[] = [];
   for (const name of MARK_PARAMETERS) {
@@ -49,16 +48,8 @@ export function linkOf({ measure, label, stations }: Marked): Link {
   return { parameters, left };
 }
 
-/**
- * Sets the marks of an address. Resolves with whether each of them suits a cloud of `count` points. `isHere`: whether this
- * cloud is still on screen.
- */
-export async function restore(
-  search: string,
-  { measure, label, stations }: Marked,
-  count: number,
-  isHere: () => boolean,
-): Promise<boolean> {
+/** Sets the marks of an address. Returns whether each of them suits a cloud of `count` points. */
+export function restore(search: string, { measure, label, stations }: Marked, count: number): boolean {
   const query = new URLSearchParams(search);
   const all = (name: MarkParameter) => query.getAll(name).slice(0, LONGEST);
   const isIndex = (word: string | undefined) => /^\d{1,10}$/.test(word ?? "") && Number(word) < count;
@@ -77,11 +68,8 @@ export async function restore(
   const places = all("station").map(stationOf);
   const known = places.filter((station) => station !== null);
   if (known.length === 0 || count === 0) return isWhole && places.length === 0;
-  // Their code is downloaded first.
-  const tool = await stations.ready();
-  if (!isHere()) return true;
-  tool?.add(known);
-  return isWhole && tool !== null && known.length === places.length;
+  stations.add(known);
+  return isWhole && known.length === places.length;
 }
 
 function stationOf(text: string): Station | null {

@@ -14,7 +14,6 @@ import { Information } from "./information/information.ts";
 import { ScaleBar } from "./information/scale-bar.ts";
 import { bindKeysSheet } from "./keys.ts";
 import { Label } from "./label.ts";
-import { LateTool } from "./late-tool.ts";
 import { linkOf, type Marked, noMarks, restore } from "./link.ts";
 import { Marks } from "./marks.ts";
 import { Measure } from "./measure.ts";
@@ -23,6 +22,7 @@ import { Pick } from "./pick.ts";
 import { pointAt, type Spot } from "./find.ts";
 import { onClick, spotOf, TOLERANCE } from "./pointer.ts";
 import { Select } from "./select.ts";
+import { Stations } from "./stations/stations.ts";
 import type { Bench, Tool } from "./tool.ts";
 
 /** The bar over the cloud. At most one of its tools is active. The active tool receives the clicks or the drags. */
@@ -68,10 +68,7 @@ export class Tools {
       actions,
       () => linkOf(this.#marked).left,
     );
-    const stations = new LateTool("stations", "clicks", async (card) => {
-      const { Stations } = await import("./stations/stations.ts");
-      return new Stations(bench, store, card);
-    });
+    const stations = new Stations(bench, store, byId("stations-card"));
     this.#marked = { measure, label, stations };
     this.#tools = [new Pick(bench), measure, select, label, stations, exports];
     for (const tool of this.#tools) {
@@ -102,15 +99,13 @@ export class Tools {
   /** The last distance, or how many points no station sees. `null`: it is not known. */
   figure(name: "distance" | "unseen"): number | null {
     const { measure, stations } = this.#marked;
-    return name === "distance" ? measure.distance : (stations.here?.unseen ?? null);
+    return name === "distance" ? measure.distance : stations.unseen;
   }
 
-  /** Sets the marks of an address. Resolves with a sentence if some of them do not suit the cloud. */
-  async restore(search: string): Promise<string | null> {
+  /** Sets the marks of an address. Returns a sentence if some of them do not suit the cloud. */
+  restore(search: string): string | null {
     const { cloud, answer } = this.#viewer.scene;
-    const count = answer.whole ? 0 : cloud.count;
-    const isHere = () => this.#viewer.cloud === cloud;
-    return (await restore(search, this.#marked, count, isHere))
+    return restore(search, this.#marked, answer.whole ? 0 : cloud.count)
       ? null
       : "Some marks or stations in the address do not suit this cloud. They are left out.";
   }
@@ -179,7 +174,6 @@ export class Tools {
     const actions: Action[] = ["compare", "middle", ...this.#tools.map(({ name }) => name)];
     this.#canvas.addEventListener("keydown", (event) => {
       const found = pressed(event, actions);
-      // In a frame of another page there are no tools.
       if (!found || event.repeat || !byId("tools").checkVisibility()) return;
       if (found.action === "compare") {
         this.#compare.toggle();

@@ -47,10 +47,8 @@ export class Workshop {
     await this.#open();
     const tools = this.#tools;
     if (!tools || search === null || this.#search !== search || !this.#viewer.cloud) return null;
-    const said = await tools.restore(search);
-    // Another cloud may have come.
-    if (this.#search !== search) return null;
     this.#search = null;
+    const said = tools.restore(search);
     this.#changed();
     return said;
   }

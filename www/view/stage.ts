@@ -36,7 +36,6 @@ export class Stage {
   #isBegun = false;
   /** The ball in which everything is drawn. */
   #extent = { middle: new Vector3(), radius: 1 };
-  #coarse = false;
 
   constructor(canvas: HTMLCanvasElement, covered: () => number = () => 0) {
     this.#canvas = canvas;
@@ -118,18 +117,6 @@ export class Stage {
     this.invalidate();
   }
 
-  /** Draws a quarter of the pixels, for a picture that lasts only for a moment. */
-  setCoarse(coarse: boolean): void {
-    if (coarse === this.#coarse) return;
-    this.#coarse = coarse;
-    this.#renderer.setPixelRatio(this.#ratio());
-    this.invalidate();
-  }
-
-  #ratio(): number {
-    return Math.min(devicePixelRatio, 2) / (this.#coarse ? 2 : 1);
-  }
-
   /** Draws the next frame although the camera has not moved. */
   invalidate(): void {
     this.#changed = true;
@@ -151,7 +138,7 @@ export class Stage {
     if (width === 0 || height === 0) return;
     // The shape is kept, because to read it again makes the browser compute the layout.
     this.#shape = { width, height };
-    this.#renderer.setPixelRatio(this.#ratio());
+    this.#renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     this.#renderer.setSize(width, height, false);
     this.camera.aspect = width / height;
     this.#free = this.#freeNow;

@@ -14,7 +14,6 @@ import { Navigation } from "./navigation.ts";
 import { CloudPoints } from "./points.ts";
 import { Stage } from "./stage.ts";
 import { type Theme, THEMES } from "./theme.ts";
-import { type Previewed, WaitingRoom } from "./waiting-room.ts";
 
 /** A cloud that is ready to be shown, with the first answer about it. */
 export interface Opened {
@@ -26,8 +25,8 @@ export interface Opened {
   answer: TimedView;
   /** Finds the first view if `up` points up, for the present shape of the picture. */
   findHome: (up: Up) => Home;
-  /** The surface that its points were taken from. If it is not known, a sentence says why. */
-  surface: KnownSurface | string;
+  /** The surface that its points were taken from, if it is known. */
+  surface?: KnownSurface;
   /** The places from which the points were measured, if the file says so. */
   stations: FileStation[];
 }
@@ -71,7 +70,6 @@ export class Viewer {
   #shown: Shown | null = null;
   /** The cloud, while points that were read for one viewpoint are shown instead of it. */
   #overview: Shown | null = null;
-  readonly #waiting: WaitingRoom<Shown>;
   #theme = THEMES.dark;
   /** Whether the cloud has not been drawn yet. */
   #isNew = false;
@@ -86,7 +84,6 @@ export class Viewer {
     this.stage = new Stage(canvas, covered);
     this.navigation = new Navigation(this.stage.camera, canvas, polite);
     this.#marker = new ViewpointMarker(this.stage.overlay);
-    this.#waiting = new WaitingRoom(this.stage, this.navigation);
     this.stage.onFrame = () => {
       this.#marker.follow(this.stage.camera);
       this.#inquire();
@@ -145,38 +142,8 @@ export class Viewer {
     return target.lengthSq() === 0 ? null : inFile(this.#shown!.cloud, target);
   }
 
-  /** Shows points of a file that is being read, instead of the cloud. `endPreview` brings the cloud back. */
-  preview(points: Float32Array, up: Up): void {
-    this.#leave();
-    this.#waiting.addPoints(points, this.#theme, up);
-  }
-
-  /** Shows all points of a cloud, until `show` shows it with its first answer. */
-  previewCloud(previewed: Previewed): void {
-    this.#leave();
-    this.#waiting.showCloud(previewed, this.#theme);
-  }
-
-  /** Brings the cloud back that was there before the preview. */
-  endPreview(): void {
-    if (!this.#waiting.isOpen) return;
-    this.#shown = this.#waiting.left;
-    this.#waiting.end(true);
-    if (!this.#shown) return;
-    this.#applyLook(this.#store.current);
-    this.#placeMarker(this.#store.current.freeze);
-    this.#inquire();
-  }
-
-  #leave(): void {
-    this.#waiting.open(this.#shown);
-    this.#shown = null;
-  }
-
   /** Removes the cloud, so that the settings for the next one can be made. */
   clear(): void {
-    if (this.#waiting.isOpen) this.#shown = this.#waiting.left;
-    this.#waiting.end(false);
     if (!this.#shown) return;
     for (const shown of [this.#shown, this.#overview]) if (shown) this.#end(shown);
     this.#shown = this.#overview = null;
@@ -202,9 +169,8 @@ export class Viewer {
     const { inquiry, answer, home } = opened;
     const shown = (this.#shown = this.#made(opened));
     inquiry.onDetail = (detail) => this.#exchange(shown, detail);
-    // In a preview the camera is there already, and the user may have moved it on.
     this.#enter(shown, () => {
-      if (!this.#waiting.hasShown(home)) this.navigation.setHome(home.pose);
+      this.navigation.setHome(home.pose);
     });
     inquiry.onView(answer);
     this.#isNew = true;
@@ -251,8 +217,7 @@ export class Viewer {
   /** Shows points that were read for the present viewpoint instead of the cloud. `null`: shows the cloud again. */
   #exchange(overview: Shown, detail: Detail | null): boolean {
     const before = this.#shown;
-    // While another cloud is being opened, the picture is not ours.
-    if (this.#waiting.isOpen || before === null) return false;
+    if (before === null) return false;
     const { home, findHome } = before;
     Object.assign(overview, { home, findHome });
     remove(before);

@@ -5,10 +5,6 @@ import { FormatProblem } from "./problem.js";
 
 /** Memory is taken for so many numbers at first. A line of a table may have any number of columns. */
 const FIRST_NUMBERS = 1 << 20;
-/** Points are shown while they are read: the first ones, then so many at a time, but not more than the last number. */
-const FIRST_SHOWN = 10_000;
-const NEXT_SHOWN = 150_000;
-const MOST_SHOWN = 4_000_000;
 const number = new Intl.NumberFormat("en-US");
 
 /**
@@ -29,20 +25,15 @@ export class CloudBuilder {
   #step = 1;
   #capacity: number;
   readonly #limit: number;
-  readonly #onPoints: Reading["onPoints"];
-  /** How many points have been handed on, and the number at which the next ones are. */
-  #shown = 0;
-  #showAt = FIRST_SHOWN;
   readonly #columns: readonly Column[];
 
   constructor(
     precision: "float32" | "float64",
     columns: readonly Column[],
-    { limit = Infinity, onPoints }: Pick<Reading, "limit" | "onPoints">,
+    { limit = Infinity }: Pick<Reading, "limit">,
     expected: number | null,
   ) {
     this.#limit = limit;
-    this.#onPoints = onPoints;
     this.#columns = columns;
     if (expected !== null) this.#step = Math.max(1, Math.ceil(expected / limit));
     this.#capacity = Math.max(1, Math.min(Math.floor(FIRST_NUMBERS / (3 + columns.length)), limit));
@@ -65,7 +56,6 @@ export class CloudBuilder {
     this.#positions[3 * at] = x;
     this.#positions[3 * at + 1] = y;
     this.#positions[3 * at + 2] = z;
-    if (this.#kept >= this.#showAt) this.#show();
     return at;
   }
 
@@ -104,18 +94,6 @@ export class CloudBuilder {
     return { positions, columns, rows: this.#seen, notes, records };
   }
 
-  /** Hands on the points since the last time. Differences are taken in f64, so that f32 holds them. */
-  #show(): void {
-    // Their number doubles, because every picture of all points so far takes time.
-    this.#showAt = this.#kept + Math.max(NEXT_SHOWN, this.#kept);
-    if (!this.#onPoints || this.#kept > MOST_SHOWN) return;
-    const points = new Float32Array(3 * (this.#kept - this.#shown));
-    const from = 3 * this.#shown;
-    for (let i = 0; i < points.length; i++) points[i] = this.#positions[from + i]! - this.#positions[i % 3]!;
-    this.#shown = this.#kept;
-    this.#onPoints(points, [this.#positions[0]!, this.#positions[1]!, this.#positions[2]!]);
-  }
-
   #grow(): void {
     this.#capacity = Math.min(2 * this.#capacity, this.#limit);
     this.#positions = grown(this.#positions, 3 * this.#capacity);
@@ -125,7 +103,6 @@ export class CloudBuilder {
   #halve(): void {
     this.#step *= 2;
     this.#kept = Math.ceil(this.#kept / 2);
-    [this.#shown, this.#showAt] = [this.#kept, this.#kept + NEXT_SHOWN];
     for (let i = 0; i < this.#kept; i++) {
       this.#positions.copyWithin(3 * i, 6 * i, 6 * i + 3);
       for (const values of this.values) values[i] = values[2 * i]!;

@@ -38,8 +38,6 @@ export interface Reading {
   signal?: AbortSignal | undefined;
   /** The progress from 0 to 1. */
   onProgress?: ((fraction: number) => void) | undefined;
-  /** Takes points that have been read, measured from the first one. */
-  onPoints?: ((points: Float32Array, first: [number, number, number]) => void) | undefined;
 }
 
 /** The bytes of each point. They are known if they were asked for. */
@@ -71,8 +69,6 @@ export interface CloudFile {
   areAxesPlain?: boolean;
   /** Whether the points are the rows and columns of a picture. Then points without a position are usual. */
   isGrid?: boolean;
-  /** Whether the file has faces, and the positions are all of its vertices in the order of the file. */
-  isMesh?: boolean;
   up?: Up;
   /** The places from which the points were measured. If there are several, a column `SCAN` says which. */
   stations?: FileStation[];

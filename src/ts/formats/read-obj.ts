@@ -7,14 +7,12 @@ import { lines } from "./source.js";
 import { textOf } from "./text-source.js";
 import { trimmed, wordsOf } from "./text.js";
 
-/** The vertices of an OBJ file (“v x y z”, in some files with a color after them). Its faces are optional. */
+/** The vertices of an OBJ file (“v x y z”, in some files with a color after them). Its faces are ignored. */
 export async function readObj(reading: Reading): Promise<CloudFile> {
   const colors = ["red", "green", "blue"].map((name) => ({ name, type: "float32" }) as const);
   const builder = new CloudBuilder("float64", colors, reading, null);
-  let faces = false;
   for await (const { texts, number, end } of lines(await textOf(reading), 0)) {
     for (const [i, text] of texts.entries()) {
-      faces ||= /^\s*f\s/.test(text);
       if (/^\s*v\s/.test(text)) putVertex(builder, text, number + i);
     }
     step(reading, end);
@@ -23,11 +21,7 @@ export async function readObj(reading: Reading): Promise<CloudFile> {
   const { columns, ...cloud } = builder.finish();
   // An OBJ file may have colors for only some vertices.
   const isColored = columns.every(({ values }) => !values.some(Number.isNaN));
-  return {
-    ...cloud,
-    columns: isColored ? columns : [],
-    isMesh: faces && cloud.positions.length === 3 * builder.rows,
-  };
+  return { ...cloud, columns: isColored ? columns : [] };
 }
 
 function putVertex(builder: CloudBuilder, text: string, number: number): void {

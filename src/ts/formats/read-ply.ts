@@ -20,14 +20,12 @@ export async function readPly(reading: Reading): Promise<CloudFile> {
     header.format === "ascii"
       ? await readTextRows(reading, { start: end, firstNumber: lines.length + 1 }, elements, points)
       : await readBinary(reading, header, points);
-  const faces = elements.some((element) => element.name === "face" && element.count > 0);
   const packed = splatColors(cloud.columns);
   return {
     ...cloud,
     ...(packed && { packed, notes: [...cloud.notes, SPLATS] }),
     unread: listsIn(vertices),
     axes: fieldsSaid(vertices.fields, axes),
-    isMesh: faces && cloud.positions.length === 3 * vertices.count,
   };
 }
 

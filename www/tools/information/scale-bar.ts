@@ -47,10 +47,8 @@ export class ScaleBar {
     const { unit, scale } = measures;
     const length = roundLength((LONGEST / pixels) * scale[0]);
     const width = (length * pixels) / scale[0];
-    // In a frame of another page, a link is at the right, and signs are at the top.
-    const isEmbedded = document.body.classList.contains("embedded");
-    const right = isEmbedded ? EDGE + width : size.width - EDGE;
-    const bottom = innerWidth <= NARROW && !isEmbedded ? EDGE + BELOW_BUTTON : size.height - EDGE;
+    const right = size.width - EDGE;
+    const bottom = innerWidth <= NARROW ? EDGE + BELOW_BUTTON : size.height - EDGE;
     for (const line of this.#lines) line.setAttribute("d", `M${right - width} ${bottom - 6}v6h${width}v-6`);
     this.#text.textContent = lengthText(length, unit);
     this.#text.setAttribute("x", String(right - width / 2));

@@ -91,12 +91,7 @@ export class RecordTaker {
   readonly #box: BoxCheck;
   readonly #found: Contradictions;
 
-  constructor(
-    header: LasDetails,
-    reading: Pick<Reading, "limit" | "onPoints">,
-    found: Contradictions,
-    expected: number,
-  ) {
+  constructor(header: LasDetails, reading: Pick<Reading, "limit">, found: Contradictions, expected: number) {
     this.#header = header;
     this.#found = found;
     this.#box = new BoxCheck(header);
