@@ -1,4 +1,5 @@
 import { init } from "hidden-point-removal";
+import { WorkerPointCloud } from "hidden-point-removal/worker";
 import { byId } from "./controls/dom.ts";
 import { loadAhead } from "./loaders/index.ts";
 import { sourceOf } from "./page/sources.ts";
@@ -16,12 +17,19 @@ const first = sourceOf(wishes, location.search);
 loadAhead(first.request);
 // If that fails, the error is reported when a cloud needs it.
 init().catch(() => undefined);
+// Its worker starts meanwhile. One point keeps the worker until the cloud is there.
+const keeper = WorkerPointCloud.create(new Float32Array(3), { shared: true });
+keeper.catch(() => undefined);
 bindSheet();
 bindDrawer();
 
 import("./page/session.ts")
-  .then(({ startSession }) => {
-    startSession(wishes, first);
+  .then(({ startSession }) => startSession(wishes, first))
+  .finally(() => {
+    keeper.then(
+      (cloud) => cloud.dispose(),
+      () => undefined,
+    );
   })
   .catch((error: unknown) => {
     const status = byId("status");

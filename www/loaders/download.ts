@@ -5,17 +5,18 @@ import { LoadProblem } from "./problem.ts";
  */
 const MAX_DOWNLOAD = 4_000_000_000;
 
-/**
- * Downloads a whole file. Reports the progress if the server gives the length. `unreachable`: the reason why the file
- * is not available, if it is known.
- */
+/** Downloads a whole file. Reports the progress if the server gives the length. */
 export async function download(
   name: string,
   url: string,
   onProgress: (fraction: number | null) => void,
-  unreachable?: string,
 ): Promise<Blob> {
-  return receive(name, await ask(name, url, { unreachable }), onProgress);
+  return receive(name, await ask(name, url), onProgress);
+}
+
+/** Downloads a whole file that is small. */
+export async function downloadBytes(name: string, url: string, unreachable: string): Promise<Uint8Array> {
+  return bodyOf(name, await ask(name, url, { unreachable }));
 }
 
 /**
@@ -52,7 +53,8 @@ const FIRST = 1 << 16;
 
 interface Question {
   range?: [number, number];
-  unreachable?: string | undefined;
+  /** The reason why the file is not available, if it is known. */
+  unreachable?: string;
 }
 
 async function ask(name: string, url: string, { range, unreachable }: Question = {}): Promise<Response> {

@@ -1,47 +1,61 @@
 import type { PreparedCloud } from "../cloud/cloud.ts";
 import { LoadProblem, missingPart } from "./problem.ts";
-import type { LoadReply, LoadRequest } from "./protocol.ts";
+import type { LoadReply, LoadRequest, WorkerRequest } from "./protocol.ts";
+import { loadSample } from "./sample.ts";
 import script from "./worker.ts?worker&url";
 
 export { LoadProblem } from "./problem.ts";
 export type { LoadRequest, ReadOptions } from "./protocol.ts";
 
 /** A loading that has begun before anybody waits for it. */
-let ahead: { request: LoadRequest; loading: Loading } | null = null;
+let ahead: { request: LoadRequest; loading: Loading | Promise<PreparedCloud> } | null = null;
 
 /** Begins to load a cloud, before the page's other parts are there. `loadCloud` goes on with the same request. */
 export function loadAhead(request: LoadRequest): void {
-  ahead = { request, loading: new Loading(request) };
+  const loading = begin(request);
+  // If it fails, the error is reported to whoever waits for it.
+  if (loading instanceof Promise) loading.catch(() => undefined);
+  ahead = { request, loading };
+}
+
+function begin(request: LoadRequest): Loading | Promise<PreparedCloud> {
+  return request.kind === "sample" ? loadSample(request) : new Loading(request);
 }
 
 /** Ends the loading that has begun, if nobody will wait for it. */
 export function forgetAhead(): void {
-  ahead?.loading.end();
+  if (ahead?.loading instanceof Loading) ahead.loading.end();
   ahead = null;
 }
 
 /**
- * Loads a cloud in its own worker. So a large file does not block the page, and its
+ * Loads a cloud. Files are read in a worker of their own. So a large file does not block the page, and its
  * memory is freed when the worker ends.
  */
-export function loadCloud(
+export async function loadCloud(
   request: LoadRequest,
   signal: AbortSignal,
   onProgress: (step: string, fraction: number | null) => void,
 ): Promise<PreparedCloud> {
-  const loading = ahead?.request === request ? ahead.loading : new Loading(request);
+  if (ahead?.request !== request) forgetAhead();
+  const begun = ahead?.loading;
   ahead = null;
+  const loading = begun ?? begin(request);
   return new Promise<PreparedCloud>((resolve, reject) => {
     signal.addEventListener("abort", () => {
       reject(new DOMException("Another cloud was opened.", "AbortError"));
     });
+    if (loading instanceof Promise) {
+      loading.then(resolve, reject);
+      return;
+    }
     loading.listen((reply) => {
       if (reply.kind === "progress") onProgress(reply.step, reply.fraction);
       else if (reply.kind === "cloud") resolve(reply.prepared);
       else reject(new LoadProblem(reply.sentence, reply.rest));
     }, reject);
   }).finally(() => {
-    loading.end();
+    if (loading instanceof Loading) loading.end();
   });
 }
 
@@ -52,7 +66,7 @@ class Loading {
   #onReply: ((reply: LoadReply) => void) | null = null;
   #onProblem: (problem: LoadProblem) => void = () => undefined;
 
-  constructor(request: LoadRequest) {
+  constructor(request: WorkerRequest) {
     const { worker, end } = startWorker();
     this.end = end;
     worker.onmessage = ({ data: reply }: MessageEvent<LoadReply>) => {

@@ -2,9 +2,10 @@ import type { PreparedCloud } from "../cloud/cloud.ts";
 import type { Rest } from "./problem.ts";
 import type { GeneratorName } from "../samples/generators.ts";
 
+export type LoadRequest = { kind: "sample"; name: string; url: string } | WorkerRequest;
+
 /** A request of the page to the loading worker. Each worker gets one request. */
-export type LoadRequest =
-  | { kind: "sample"; name: string; url: string }
+export type WorkerRequest =
   | { kind: "shape"; name: string; shape: GeneratorName }
   | ({ kind: "url"; name: string; url: string } & ReadOptions)
   | ({ kind: "file"; name: string; file: File } & ReadOptions)

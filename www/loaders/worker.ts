@@ -6,14 +6,11 @@ import { download, downloadRanges } from "./download.ts";
 import { MAX_POINTS } from "../settings/limits.ts";
 import { checkedCloud } from "./limits.ts";
 import { LoadProblem, missingPart } from "./problem.ts";
-import type { LoadReply, LoadRequest } from "./protocol.ts";
+import type { LoadReply, WorkerRequest } from "./protocol.ts";
 
 const post = (reply: LoadReply, transfer: Transferable[] = []) => {
   self.postMessage(reply, { transfer });
 };
-
-/** Why a sample is not available. Samples that have been opened before are kept (offline/service-worker.ts). */
-const NOT_KEPT = "there is no connection, and it has not been opened on this device before";
 
 /** The least number of milliseconds between two reports. The eye does not see faster changes. */
 const EVERY = 50;
@@ -25,7 +22,7 @@ const progress = (step: string, fraction: number | null) => {
   post({ kind: "progress", step, fraction });
 };
 
-self.onmessage = async ({ data: request }: MessageEvent<LoadRequest>) => {
+self.onmessage = async ({ data: request }: MessageEvent<WorkerRequest>) => {
   try {
     const prepared = prepareCloud(await load(request));
     const { positions, copy, cloud } = prepared;
@@ -50,7 +47,7 @@ function shortened(address: string): string {
   return address.length > 60 ? `${address.slice(0, 60)}…` : address;
 }
 
-async function load(request: LoadRequest): Promise<LoadedCloud> {
+async function load(request: WorkerRequest): Promise<LoadedCloud> {
   const { name } = request;
   const downloading = (fraction: number | null) => {
     progress("Downloading", fraction);
@@ -58,15 +55,6 @@ async function load(request: LoadRequest): Promise<LoadedCloud> {
   if (request.kind === "shape") {
     progress("Making", null);
     return makeSample(request.shape);
-  }
-  if (request.kind === "sample") {
-    const blob = await download(name, request.url, downloading, NOT_KEPT);
-    const data = await blob.arrayBuffer();
-    // Some servers answer with a page if they do not have the file.
-    if (data.byteLength % 12 !== 0) {
-      throw new LoadProblem(`${name} could not be downloaded: the server sent something else.`);
-    }
-    return { positions: new Float32Array(data), colors: null };
   }
 
   const onProgress = (fraction: number) => {

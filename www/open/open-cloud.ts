@@ -32,6 +32,8 @@ export interface Place {
   shared: boolean;
   signal: AbortSignal;
   onProgress: (step: string, fraction: number | null) => void;
+  /** Called when a worker has got the cloud. The page's thread has nothing to do meanwhile. */
+  onHanded?: () => void;
 }
 
 /** A cloud that can be shown, and everything that changes with it. */
@@ -115,10 +117,12 @@ export async function openCloud(
     onProgress(sentence("Preparing", request.name, fraction), fraction);
   };
   // A worker that hangs is replaced once.
-  const worker = await made(copy, report).catch((error: unknown) => {
+  const making = made(copy, report).catch((error: unknown) => {
     if (!isHang(error)) throw error;
     return made(positions.slice(), report);
   });
+  place.onHanded?.();
+  const worker = await making;
   onProgress(`Finding the visible points of ${request.name}.`, null);
   const another = async () =>
     new WorkerCloud(await WorkerPointCloud.create(positions.slice(), { workers: 1, transfer: true }), cloud.center);

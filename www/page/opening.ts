@@ -100,11 +100,15 @@ export class Opening {
         return viewer.stage.shape;
       },
       asked: "in the address",
-      shared: false,
+      // The worker that has been started ahead.
+      shared: viewer.cloud === null,
       signal,
       onProgress: (step, fraction) => {
         if (insteadOf === undefined) status.loading(step);
         this.#progress.show(fraction);
+      },
+      onHanded: () => {
+        if (viewer.cloud === null) viewer.warmUp();
       },
     });
     const more = [...ready.refusals, ...ready.notes];

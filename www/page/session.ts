@@ -23,8 +23,8 @@ import { Status } from "./status.ts";
 import { Storytelling } from "./storytelling.ts";
 import { wire } from "./wiring.ts";
 
-/** Makes the parts of the page, and opens the first cloud in them. Without WebGL 2, says so. */
-export function startSession(wishes: Wishes, first: Source): void {
+/** Makes the parts of the page, and opens the first cloud in them. Without WebGL 2, says so. Resolves when it is open. */
+export async function startSession(wishes: Wishes, first: Source): Promise<void> {
   const status = new Status(byId("status"));
   const message = new Message();
   if (!canDraw(byId("view", HTMLCanvasElement))) {
@@ -70,8 +70,9 @@ export function startSession(wishes: Wishes, first: Source): void {
     },
   });
   bindLessons(viewer, store, storytelling, message);
-  if (wishes.story) void storytelling.tell(wishes.story);
-  else void opening.open(first).then(() => introduction.begin(wishes.turns));
+  const opened = wishes.story ? storytelling.tell(wishes.story) : opening.open(first);
+  await opened;
+  if (!wishes.story) void introduction.begin(wishes.turns);
 }
 
 /** The height at the bottom of the picture that the verbs or the tools cover, in CSS pixels. A corner does not count. */

@@ -6,6 +6,7 @@ import {
   GLSL3,
   Mesh,
   NearestFilter,
+  type Object3D,
   OrthographicCamera,
   type PerspectiveCamera,
   Scene,
@@ -207,15 +208,25 @@ export class EyeDome {
     const { uniforms } = this.#material;
     uniforms["behind"]!.value = all.opacity;
     uniforms["alone"]!.value = all.alone * renderer.getDrawingBufferSize(this.#size).x;
+    scene.userData["part"] = [all.alone, 1];
+    all.scene.userData["part"] = [0, all.opacity > 0 ? 1 : all.alone];
     if (all.opacity > 0 || all.alone > 0) {
       this.#allTarget ??= newTarget();
       uniforms["allColors"]!.value = this.#allTarget.texture;
       uniforms["allDepths"]!.value = this.#allTarget.depthTexture;
       this.#drawInto(this.#allTarget, renderer, all.scene, camera);
     }
-    this.#shade(renderer, scene, camera);
+    if (all.alone < 1) this.#drawInto(this.#target, renderer, scene, camera);
+    this.#shade(renderer, camera);
     renderer.clear();
     renderer.render(this.#screen, this.#camera);
+  }
+
+  compile(renderer: WebGLRenderer, points: Object3D, camera: PerspectiveCamera): void {
+    renderer.setRenderTarget(this.#target);
+    renderer.compile(points, camera);
+    renderer.setRenderTarget(null);
+    renderer.compile(this.#screen, this.#camera);
   }
 
   dispose(): void {
@@ -227,8 +238,7 @@ export class EyeDome {
     }
   }
 
-  #shade(renderer: WebGLRenderer, scene: Scene, camera: PerspectiveCamera): void {
-    this.#drawInto(this.#target, renderer, scene, camera);
+  #shade(renderer: WebGLRenderer, camera: PerspectiveCamera): void {
     this.#planes.set(camera.near, camera.far);
     this.#material.uniforms["reach"]!.value = REACH * renderer.getPixelRatio();
     this.#material.uniforms["gap"]!.value = this.touching ? Math.max(1, renderer.getPixelRatio()) : 0;

@@ -14,6 +14,8 @@ export const vertexShader = /* glsl */ `
   uniform float coverage;
   /* 0: all points are drawn. 1: those that the map does not hide. -1: those that it hides. */
   uniform float byMap;
+  /* The part of the picture that is shown, from left to right in clip space, and the width of a pixel there. */
+  uniform vec3 part;
   ${VisibilityMap.prototype.glsl}
   varying vec3 tint;
   varying float size;
@@ -27,6 +29,10 @@ export const vertexShader = /* glsl */ `
     gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
     size = clamp(width * pixels / gl_Position.w, least, max(least, most));
     gl_PointSize = size;
+    // Far beyond the dividing line, nobody sees the point, nor its shade.
+    float x = gl_Position.x / gl_Position.w;
+    float near = (size + 16.0) * part.z;
+    if (gl_Position.w > 0.0 && (x < part.x - near || x > part.y + near)) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
     tint = chosenOr(mix(ownTint(), cover, coverage));
   }
 `;

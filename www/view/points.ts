@@ -79,6 +79,7 @@ export class CloudPoints {
           cover: { value: new Color() },
           coverage: { value: coverage },
           byMap: { value: 0 },
+          part: { value: new Vector3(-1, 1, 0) },
           ...this.#map,
         },
       });
@@ -91,9 +92,11 @@ export class CloudPoints {
     this.all = draw(0, null);
     this.#draws = [this.solid, this.ghost, this.all];
     for (const each of this.#draws) {
-      each.onBeforeRender = (renderer, _scene, camera) => {
+      each.onBeforeRender = (renderer, scene, camera) => {
         const { x: width, y: height } = renderer.getDrawingBufferSize(new Vector2());
         const { uniforms } = each.material;
+        const [from, to] = scene.userData["part"] as [number, number];
+        (uniforms["part"]!.value as Vector3).set(2 * from - 1, 2 * to - 1, 2 / width);
         uniforms["pixels"]!.value = (camera.projectionMatrix.elements[5] * height) / 2;
         const least = leastPixels(cloud.count, width / renderer.getPixelRatio()) * renderer.getPixelRatio();
         const kind = this.#width < TOUCHING_FROM * this.#spacing ? "small" : "touching";

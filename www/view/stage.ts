@@ -1,4 +1,4 @@
-import { PerspectiveCamera, Scene, Vector2, Vector3, WebGLRenderer } from "three";
+import { type Object3D, PerspectiveCamera, Scene, Vector2, Vector3, WebGLRenderer } from "three";
 import { display } from "./attributes.ts";
 import { type AllPoints, EyeDome } from "./eye-dome.ts";
 import { type Theme, THEMES } from "./theme.ts";
@@ -120,6 +120,11 @@ export class Stage {
   /** Draws the next frame although the camera has not moved. */
   invalidate(): void {
     this.#changed = true;
+  }
+
+  /** Compiles the shaders of these points before they are drawn. Nothing waits for it. */
+  compile(points: Object3D): void {
+    this.#eyeDome.compile(this.#renderer, points, this.camera);
   }
 
   /** Stops drawing and frees the memory of the graphics card. The canvas cannot be used again. */

@@ -2,6 +2,7 @@ import { Matrix4, Quaternion } from "three";
 import { isSamePlace } from "../ask/question.ts";
 import type { Detail, Inquiry, Mapped, TimedView } from "../ask/inquiry.ts";
 import type { Attribute, Cloud, FileStation, Up } from "../cloud/cloud.ts";
+import { prepareCloud } from "../cloud/prepare.ts";
 import type { KnownSurface } from "../samples/samples.ts";
 import { TOUCHING_FROM } from "../settings/limits.ts";
 import type { Settings, Viewpoint } from "../settings/settings.ts";
@@ -100,6 +101,12 @@ export class Viewer {
     store.follow((now, before) => {
       this.#apply(now, before);
     });
+  }
+
+  /** Lets the first picture not wait for the graphics card's compiler. Call it before the first cloud is shown. */
+  warmUp(): void {
+    const { cloud } = prepareCloud({ positions: new Float32Array(3), colors: null });
+    this.stage.compile(new CloudPoints(cloud, new CloudAttributes(cloud, this.#theme), this.#theme).solid);
   }
 
   /** The cloud on screen. */
