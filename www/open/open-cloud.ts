@@ -6,7 +6,7 @@ import type { Up } from "../cloud/cloud.ts";
 import { loadCloud, type LoadRequest } from "../loaders/index.ts";
 import type { Sample } from "../samples/samples.ts";
 import type { Settings } from "../settings/settings.ts";
-import { type AskedView, findHome, type Home, inReachOnly } from "../view/framing.ts";
+import { type AskedView, findHome, type Home, inReachOnly, levelFrom } from "../view/framing.ts";
 import type { Opened } from "../view/viewer.ts";
 import { usableColor } from "./usable.ts";
 import { touchingSize, usualLook } from "./usual.ts";
@@ -57,6 +57,8 @@ export interface Ready {
   notes: string[];
 }
 
+/** The field of view from a station, which stands among its points. */
+const FROM_STATION = 65;
 /** Below this number of points one worker is enough. */
 const SHARED_BELOW = 200_000;
 /**
@@ -78,7 +80,13 @@ export async function openCloud(
   const { cloud, positions, copy, ...loaded } = await loadCloud(request, signal, (step, fraction) => {
     onProgress(sentence(step, request.name, fraction), fraction);
   });
-  const usual = usualLook(sample, name, loaded.taken?.up, cloud.center);
+  const stations = loaded.taken?.stations ?? [];
+  const [station] = stations;
+  const alone = stations.length === 1 ? station : undefined;
+  const usual = {
+    ...usualLook(sample, name, loaded.taken?.up, cloud.center),
+    ...(alone && { fieldOfView: FROM_STATION }),
+  };
   const { view, places, notes: farNotes } = inReachOnly(cloud, wanted, wished, place.asked);
   const own: Partial<Settings> = {
     ...usual,
@@ -95,9 +103,7 @@ export async function openCloud(
   );
   own.color = color;
   const { fieldOfView: fov, up } = { ...usual, ...wished };
-  const stations = loaded.taken?.stations ?? [];
-  const [station] = stations;
-  const taken = station && stations.length === 1 ? { at: station.viewpoint, target: null } : null;
+  const taken = alone ? { at: alone.viewpoint, target: levelFrom(cloud, alone.viewpoint, up) } : null;
   const homeFrom = (asked: AskedView | null, whole?: boolean) => (upward: Up) => {
     const lens = { fov, ...place.shape() };
     const sameUp = upward === up;

@@ -68,9 +68,10 @@ export async function showRight(viewer: Viewer): Promise<void> {
 }
 
 function byStations(verdicts: readonly StationVerdict[], count: number): Node[] {
-  const whose = count === 1 ? "The scan’s station sees" : `${count} stations of the scan see`;
+  const [whose, they] =
+    count === 1 ? ["The scan’s station sees", "it has"] : [`${count} stations of the scan see`, "they have"];
   return [
-    make("p", {}, `${whose} the points that they have measured. A method that hides one of them is wrong.`),
+    make("p", {}, `${whose} the points that ${they} measured. A method that hides one of them is wrong.`),
     tableOf(
       ["Method", "Own points missed", "Of all points, shown"],
       verdicts.map(({ method, missed, shown }) => ({ method, shares: [missed, shown] })),

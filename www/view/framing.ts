@@ -71,6 +71,15 @@ export function findHome(
   };
 }
 
+/** A target as high as a station, in the direction of its points. The middle of a scan is often the ground under the station. */
+export function levelFrom(cloud: Cloud, station: Viewpoint, up: Up): Viewpoint {
+  const from = inLocal(cloud, station);
+  const [sum, point] = [new Vector3(), new Vector3()];
+  for (let i = 0; i < cloud.count; i++) sum.add(point.fromArray(cloud.local, 3 * i).sub(from));
+  const ahead = sum.projectOnPlane(new Vector3(...upVector(up)));
+  return inFile(cloud, from.add(ahead.setLength(cloud.radius)));
+}
+
 /** Whether the place is near enough to see the cloud. From further away the cloud is far smaller than a pixel. */
 function isInReach(cloud: Cloud, view: Viewpoint): boolean {
   return Math.hypot(...view.map((value, axis) => value - cloud.center[axis]!)) <= REACH * cloud.radius;
