@@ -13,7 +13,7 @@ export class Signs {
       frozen.hidden = !isFrozen;
       // Beside a comparison, hidden points have no color of their own.
       hidden.hidden = mode === "off" || compare !== null;
-      hidden.dataset["dimmed"] = String(isFrozen && mode === "dimmed");
+      hidden.dataset["dimmed"] = String(mode === "dimmed");
       hidden.lastElementChild!.textContent = isFrozen ? "Hidden from that viewpoint" : "Hidden from here";
     });
   }

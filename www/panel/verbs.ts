@@ -1,5 +1,7 @@
 import { byId } from "../controls/dom.ts";
 import { isCalm } from "../controls/motion.ts";
+import type { Vector3 } from "three";
+import { inLocal } from "../view/framing.ts";
 import { MIDDLE } from "../settings/limits.ts";
 import type { Store } from "../settings/store.ts";
 import type { Moves } from "../view/moves.ts";
@@ -8,9 +10,6 @@ import type { Viewer } from "../view/viewer.ts";
 
 /** How many times as fast as usual the camera walks around a frozen viewpoint. */
 const WALK = 5;
-/** How far back the camera goes before it walks around, in its distances: if possible so far that the eye stays in the picture. */
-const BACK = { least: 1.35, most: 2.2 };
-
 /** In radians. */
 const ASIDE = 0.9;
 
@@ -25,17 +24,20 @@ export function bindVerbs(viewer: Viewer, store: Store, moves: Moves, turning: T
   });
   const freeze = byId("walk");
   const here = byId("eye-here");
+  /** Where the camera looked before. */
+  let before: Vector3 | null = null;
   freeze.addEventListener("click", () => {
-    if (moves.frozen) {
-      moves.freeze(false);
-      store.change({ hidden: "off" });
+    const { freeze: eye } = store.current;
+    if (!viewer.cloud) return;
+    if (eye) {
+      store.change({ freeze: null, hidden: "off" });
+      const target = before ?? viewer.navigation.target.clone();
+      viewer.navigation.flyTo({ at: inLocal(viewer.cloud, eye), target });
       return;
     }
-    if (!viewer.cloud) return;
+    before = viewer.navigation.target.clone();
     store.change({ freeze: viewer.viewpoint, hidden: "dimmed", compare: null });
-    const { shape, camera } = viewer.stage;
-    const wide = shape.aspect * Math.tan((camera.fov * Math.PI) / 360);
-    viewer.navigation.goBack(Math.min(BACK.most, Math.max(BACK.least, Math.hypot(1, 1.1 / wide))), () => {
+    viewer.navigation.goBack(viewer.radius, viewer.stage.shape, () => {
       if (!moves.frozen) return;
       // Without motion, the camera stands at the side at once.
       if (isCalm()) viewer.navigation.turn(ASIDE);

@@ -13,8 +13,6 @@ export interface Pose {
 
 /** Orbit, pan and zoom by mouse and touch (OrbitControls) and by keys while the canvas has the focus. */
 export class Navigation {
-  /** Asks for another field of view, by its ratio to the present one. */
-  onFieldOfView: (factor: number) => void = () => undefined;
   /** Called when the camera has been moved. */
   onMove: () => void = () => undefined;
   readonly #camera: PerspectiveCamera;
@@ -32,18 +30,14 @@ export class Navigation {
     canvas.addEventListener("keydown", (event) => {
       this.#onKey(event);
     });
-    // In the capture phase, so that the orbit controls do not zoom as well. With Alt some systems scroll sideways.
+    // In the capture phase, before the orbit controls.
     canvas.addEventListener(
       "wheel",
       (event) => {
         // With Ctrl it is a pinch on a touchpad. If it did not zoom the picture, it would zoom the whole page.
-        const others = !this.#attended && !event.ctrlKey;
-        if (others || event.altKey) event.stopImmediatePropagation();
-        if (others || !event.altKey) return;
-        event.preventDefault();
-        this.onFieldOfView((event.deltaY || event.deltaX) > 0 ? LENS_STEP : 1 / LENS_STEP);
+        if (!this.#attended && !event.ctrlKey) event.stopImmediatePropagation();
       },
-      { capture: true, passive: false },
+      { capture: true },
     );
     // The user's own move ends a flight.
     for (const move of ["pointerdown", "wheel", "keydown"]) {
@@ -75,10 +69,20 @@ export class Navigation {
     this.flyTo({ at: place.clone().add(back), target: place.clone() });
   }
 
-  /** Flies back to a multiple of the distance from the target. `then` is called there, unless the user moves first. */
-  goBack(factor: number, then: () => void): void {
-    const away = this.#camera.position.clone().sub(this.target).multiplyScalar(factor);
-    this.flyTo({ at: away.add(this.target), target: this.target.clone() }, FLIGHT, then);
+  /**
+   * Flies back so far that its place and a ball around the target are both in the picture, also while it turns around the
+   * middle between them. `shape`: of the picture. `then` is called there, unless the user moves first.
+   */
+  goBack(extent: number, { aspect, free }: { aspect: number; free: number }, then: () => void): void {
+    const back = this.#camera.position.clone().sub(this.target);
+    // A place among the points is not left for the outside.
+    const radius = Math.min(extent, back.length());
+    const half = (back.length() + radius) / 2;
+    const middle = this.target.clone().addScaledVector(back.normalize(), half - radius);
+    const tangent = Math.tan((this.#camera.fov * Math.PI) / 360);
+    // What turns comes nearer, and gets larger.
+    const distance = Math.max(half / aspect, radius / free) / tangent + half / 2;
+    this.flyTo({ at: middle.clone().addScaledVector(back, distance), target: middle }, FLIGHT, then);
   }
 
   get isFlying(): boolean {
@@ -159,7 +163,7 @@ export class Navigation {
   }
 
   #onKey(event: KeyboardEvent): void {
-    const found = pressed(event, ["pan", "orbit", "zoom", "lens"]);
+    const found = pressed(event, ["pan", "orbit", "zoom"]);
     if (!found) return;
     event.preventDefault();
     const { action, nth } = found;
@@ -167,10 +171,6 @@ export class Navigation {
       // "=" is "+" without Shift.
       if (nth < 2) this.#controls.dollyIn(ZOOM_STEP);
       else this.#controls.dollyOut(ZOOM_STEP);
-      return;
-    }
-    if (action === "lens") {
-      this.onFieldOfView(nth === 0 ? 1 / LENS_STEP : LENS_STEP);
       return;
     }
     // The order is left, right, up, down.
@@ -192,8 +192,7 @@ interface Flight {
 /** The usual number of milliseconds of a flight. */
 const FLIGHT = 300;
 
-/** The steps for each press of a key: radians, a share of the distance, pixels, and a factor of the field of view. */
+/** The steps for each press of a key: radians, a share of the distance, pixels. */
 const ORBIT_STEP = Math.PI / 36;
 const ZOOM_STEP = 0.92;
 const PAN_STEP = 24;
-const LENS_STEP = 1.08;

@@ -119,6 +119,11 @@ export class Viewer {
     return { ...this.#shown!, visible: this.#shown!.answer.visibility.indices };
   }
 
+  /** The radius of the part of the cloud that the first view shows. */
+  get radius(): number {
+    return this.#shown!.home.extent.radius;
+  }
+
   /** The direction of the viewpoint: the camera's, or the frozen one. */
   get direction(): Quaternion {
     return this.#shown!.frozen ?? this.stage.camera.quaternion;
