@@ -19,9 +19,14 @@ export async function openBall(
   view: readonly number[] = FRONT,
   file = binaryPly(positions, "double", true),
   prepare?: (page: Page) => Promise<void>,
+  marks = "",
 ): Promise<Page> {
   served.set("clouds/utm.ply", file);
-  return openReady(`?src=clouds/utm.ply&up=y&size=2&view=${view.join()}&target=${MIDDLE.join()}`, options, prepare);
+  return openReady(
+    `?src=clouds/utm.ply&up=y&size=2&view=${view.join()}&target=${MIDDLE.join()}${marks}`,
+    options,
+    prepare,
+  );
 }
 
 export const at = (index: number): [number, number, number] => [

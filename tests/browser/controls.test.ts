@@ -18,7 +18,7 @@ import {
 
 const SAMPLE = "?sample=dragon_res3&looks=0";
 
-test("changing the field of view by slider, wheel or key asks nothing", async () => {
+test("changing the field of view by the slider asks nothing", async () => {
   const page = await openReady(SAMPLE);
   const before = await settled(page);
   const pictures = [await picture(page)];
@@ -26,19 +26,7 @@ test("changing the field of view by slider, wheel or key asks nothing", async ()
   await unfold(page, "Look");
   await page.getByLabel("Field of view", { exact: true }).fill("20");
   pictures.push(await picture(page));
-  const box = (await page.locator("#view").boundingBox())!;
-  await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
-  await page.keyboard.down("Alt");
-  await page.mouse.wheel(0, 400);
-  await page.keyboard.up("Alt");
-  pictures.push(await picture(page));
-  await page.locator("#view").focus();
-  await page.keyboard.press("]");
-  pictures.push(await picture(page));
-
-  for (let i = 1; i < pictures.length; i++) {
-    expect(await differentPixels(page, pictures[i - 1]!, pictures[i]!)).toBeGreaterThan(500);
-  }
+  expect(await differentPixels(page, pictures[0]!, pictures[1]!)).toBeGreaterThan(500);
   expect(await settled(page)).toEqual(before);
 });
 

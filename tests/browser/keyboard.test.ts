@@ -1,6 +1,6 @@
 import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
-import { answered, openReady, PHONE, reached, status } from "./support.js";
+import { openReady, PHONE } from "./support.js";
 
 interface Stop {
   name: string;
@@ -134,36 +134,6 @@ test.for([
     expect((await stop(page))?.name).toBe(names.at(-1));
   },
 );
-
-test("F takes the whole screen for the cloud and its tools, and gives it back", async () => {
-  const page = await openReady("?sample=dragon_res4", WIDE);
-  const view = page.locator("#view");
-  const full = () => page.evaluate(() => document.fullscreenElement !== null);
-  await view.press("f");
-  await expect.poll(full).toBe(true);
-  expect(await page.locator("#panel").isVisible()).toBe(false);
-  expect((await view.boundingBox())!.width).toBe(await page.evaluate(() => innerWidth));
-  expect(await page.locator("#tool-bar").isVisible()).toBe(true);
-  // The keys and the announcements for screen readers still work.
-  const before = await status(page);
-  await view.press("ArrowLeft");
-  await answered(page, before);
-  await expect.poll(() => page.locator("#announcement").textContent()).toMatch(/points can be seen from here/);
-  await view.press("f");
-  await expect.poll(full).toBe(false);
-  expect(await page.locator("#panel").isVisible()).toBe(true);
-});
-
-test("F does nothing if the browser has no full screen", async () => {
-  const page = await openReady("?sample=dragon_res4");
-  await page.addInitScript(() => {
-    Object.defineProperty(document, "fullscreenEnabled", { value: false });
-  });
-  await page.reload();
-  await reached(page, "ready");
-  await page.locator("#view").press("f");
-  expect(await page.evaluate(() => document.fullscreenElement)).toBe(null);
-});
 
 test("while a cloud is loading nothing moves for users who prefer reduced motion", async () => {
   const page = await openReady("?sample=dragon_res4", { reducedMotion: "reduce" });

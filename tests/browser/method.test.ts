@@ -81,13 +81,3 @@ test("exponential flipping has no radius, and its c counts in spacings", async (
     await inNode(positions, (cloud) => cloud.visibleFrom(larger.viewpoint, { inversion: { exponential: c } }).count),
   );
 });
-
-test("flipping by a power starts at a value that sees pits as deep as the automatic radius does", async () => {
-  const { exponent } = await upToDate(await openReady(SAMPLE));
-  const now = await upToDate(await openReady(`${SAMPLE}&inversion=power`));
-  const power = Number(now.inversion.split(":")[1]);
-  expect(power / (power - 1)).toBeCloseTo(2 * 10 ** exponent, 0);
-  const count = (of: Status, gamma: number) =>
-    inNode(positions, (cloud) => cloud.visibleFrom(of.viewpoint, { inversion: { power: gamma } }).count);
-  expect(now.visible).toBe(await count(now, power));
-});

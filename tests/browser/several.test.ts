@@ -66,7 +66,6 @@ test("coordinates of several files do not change by a bit, and each point knows 
   const notes = all.notes!.join(" ");
   expect(notes).toContain("Columns that not every file has are left out: only here.");
   expect(notes).toContain("Files without colors are gray: two.las.");
-  expect(notes).toContain("far apart");
 });
 
 test("files of one grid stay on it, and different coordinate systems are named", () => {

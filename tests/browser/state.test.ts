@@ -71,7 +71,7 @@ test("at the first view and with the usual settings the address is empty", async
 
 test("a message names everything in the address that is not possible", async () => {
   const page = await openReady(
-    "?sample=bunny&radius=-1&inversion=power:17&freeze=1&hidden=maybe&size=0&fov=400&up=x&target=1,2",
+    "?sample=bunny&radius=-1&inversion=power&freeze=1&hidden=maybe&size=0&fov=400&up=x&target=1,2",
   );
   const message = (await page.locator("#message p").textContent())!;
   const named = [

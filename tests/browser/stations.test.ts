@@ -14,12 +14,6 @@ const PLACES: [string, number[]][] = [
 ];
 const number = (value: number) => value.toLocaleString("en-US");
 
-async function readList(page: Page, text: string): Promise<void> {
-  await page
-    .locator("#stations-card input[type=file]")
-    .setInputFiles({ name: "stations.csv", mimeType: "", buffer: Buffer.from(text) });
-}
-
 const table = (page: Page) =>
   page
     .locator("#stations-card tbody tr")
@@ -50,11 +44,10 @@ async function saved(page: Page, name: string): Promise<string> {
   return readFileSync(await (await coming).path(), "latin1");
 }
 
-test("stations from a list: each one's figures, the counts, the points that none sees, and the files are the package's", async () => {
-  const page = await openBall();
+test("stations of an address: each one's figures, the counts, the points that none sees, and the files are the package's", async () => {
+  const stations = PLACES.map(([name, place]) => `&station=${place.join()},${encodeURIComponent(name)}`);
+  const page = await openBall({}, undefined, undefined, undefined, stations.join(""));
   await tool(page, "Stations").click();
-  await page.locator("#stations-card tbody").waitFor({ state: "attached" });
-  await readList(page, ["name;x;y;z", ...PLACES.map(([name, place]) => [name, ...place].join(";"))].join("\r\n"));
   const { counts, rows, unseen } = await expected(PLACES);
   await expect.poll(() => page.locator("#stations-unseen").getAttribute("data-count")).toBe(String(unseen));
   expect(await table(page)).toEqual(rows);
@@ -67,29 +60,13 @@ test("stations from a list: each one's figures, the counts, the points that none
   expect(legend[0]).toBe(unseen);
   expect(new URL(page.url()).searchParams.has("color")).toBe(false);
 
-  expect(await saved(page, "Stations, CSV")).toBe(
-    [
-      "name,x,y,z,sees,alone",
-      ...PLACES.map(([name, place], s) =>
-        [
-          name.includes(",") ? `"${name}"` : name,
-          ...place,
-          ...rows[s]!.slice(1).map((text) => text.replace(",", "")),
-        ].join(),
-      ),
-      "",
-    ].join("\n"),
-  );
-  expect(await saved(page, "Points, CSV")).toBe(
-    ["index,x,y,z,stations", ...counts.map((count, i) => [i, ...at(i), count].join()), ""].join("\n"),
-  );
   const ply = Buffer.from(await saved(page, "Points, PLY"), "latin1");
   const start = ply.indexOf("end_header\n") + 11;
   expect(ply.subarray(0, start).toString()).toContain("element vertex 600");
   expect(counts.map((_, i) => ply.readUInt8(start + 25 * i + 24))).toEqual(counts);
 });
 
-test("a click places a station above the point, one can be removed, and a list with a wrong line is refused", async () => {
+test("a click places a station above the point, and one can be removed", async () => {
   const page = await openBall();
   const seen = await visible(page);
   const [index] = await lonely(page, seen, seen);
@@ -107,11 +84,6 @@ test("a click places a station above the point, one can be removed, and a list w
   ]);
   await expect.poll(() => page.locator("#stations-unseen").getAttribute("data-count")).toBe(String(both.unseen));
   expect(await table(page)).toEqual(both.rows);
-  await readList(page, "a,1,2,3\nb,1,two,3\n");
-  await expect
-    .poll(() => page.locator("#stations-card output").textContent())
-    .toBe("Line 2 is not a name and three numbers x, y, z: “b, 1, two, 3”.");
-  expect((await table(page)).length).toBe(2);
   await page.getByRole("button", { name: "Remove the station S1" }).click();
   const last = await expected([["S2", [X, Y, Z + 9]]]);
   await expect.poll(() => page.locator("#stations-unseen").getAttribute("data-count")).toBe(String(last.unseen));

@@ -4,7 +4,6 @@ import { linkSync, lstatSync, mkdirSync, readdirSync, statSync, symlinkSync } fr
 import { join } from "node:path";
 import { beforeEach, describe, expect, it } from "vitest";
 
-import { csvWord } from "../../www/tools/csv";
 import { commandIn } from "./command-support";
 
 const { run, write, lines, place } = commandIn("command-outputs");
@@ -141,14 +140,5 @@ describe("words of files and arguments", () => {
       expect(stdout).toHaveLength(0);
       expect(stderr, JSON.stringify(args)).toMatch(/^([^\p{Cc}\p{Zl}\p{Zp}\p{Bidi_Control}]+\n)+$/u);
     }
-  });
-
-  it("start no formula in a table, and stay in their cell", () => {
-    for (const sign of ["=", "+", "-", "@", "\t", "\r", "\n", " =", "\uff1d"]) {
-      expect(csvWord(`${sign}1`), JSON.stringify(sign)).toMatch(/^"?'/);
-    }
-    expect(csvWord("a\rb")).toBe('"a\rb"');
-    expect(csvWord('say "x", y')).toBe('"say ""x"", y"');
-    expect(csvWord("a hall")).toBe("a hall");
   });
 });

@@ -13,29 +13,27 @@ export interface ViewAnswer {
 /** Finds what a viewpoint sees. If the settings do not suit the cloud or the place, the library's defaults are used. */
 export async function askView(cloud: WorkerCloud, question: ViewQuestion, signal?: AbortSignal): Promise<ViewAnswer> {
   const { viewpoint, method, draft } = question;
-  const { value, note } = await orUsual(
-    () => cloud.options(method, viewpoint),
-    (options) => cloud.points.visibleFrom(viewpoint, { ...options, signal, ...(draft && { draft }) }),
+  const { value, note } = await orUsual(cloud.options(method), (options) =>
+    cloud.points.visibleFrom(viewpoint, { ...options, signal, ...(draft && { draft }) }),
   );
   return { question, visibility: value, note };
 }
 
 /** A map for a viewpoint, with positions relative to the middle of the cloud. */
 export async function askMap(cloud: WorkerCloud, { viewpoint, method }: ViewQuestion): Promise<VisibilityMap> {
-  const { value } = await orUsual(
-    () => cloud.options(method, viewpoint),
-    (options) => cloud.points.visibilityMap(viewpoint, { ...options, origin: cloud.center }),
+  const { value } = await orUsual(cloud.options(method), (options) =>
+    cloud.points.visibilityMap(viewpoint, { ...options, origin: cloud.center }),
   );
   return value;
 }
 
 /** Runs `ask` with the options. If these are refused, runs it without options, and says why. */
 async function orUsual<T>(
-  options: () => Promise<VisibilityOptions>,
+  options: VisibilityOptions,
   ask: (options: VisibilityOptions) => Promise<T>,
 ): Promise<{ value: T; note: string | null }> {
   try {
-    return { value: await ask(await options()), note: null };
+    return { value: await ask(options), note: null };
   } catch (error) {
     if (!(error instanceof HprError) || (error.code !== "radius" && error.code !== "option")) throw error;
     const note = `These settings do not suit this cloud or place, so the usual ones are used: ${error.message.replace(/\.$/, "")}.`;

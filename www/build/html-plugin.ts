@@ -22,8 +22,7 @@ export function html(): Plugin {
 }
 
 const TEXTS: Record<string, () => string> = {
-  keys: () =>
-    `${spokenKeys(["orbit", "pan", "zoom", "lens"])}. ${spokenKeys(["pick"])}; ${lower(spokenKeys(["sheet"]))}`,
+  keys: () => `${spokenKeys(["orbit", "pan", "zoom"])}. ${spokenKeys(["pick"])}; ${lower(spokenKeys(["sheet"]))}`,
   "formats, or": () => listed(FORMATS, "or"),
   accept: () => [...FORMATS, ...OTHER_ENDINGS].map((name) => `.${name.toLowerCase()}`).join(),
 };

@@ -22,11 +22,9 @@ export const KEYS = {
   orbit: { keys: ARROWS, shown: ["arrow keys"], said: "arrow keys", does: "orbit" },
   pan: { keys: ARROWS, shift: true, shown: ["Shift", "arrow keys"], said: "Shift and arrow keys", does: "pan" },
   zoom: { keys: ["+", "=", "-"], shown: ["+", "−"], said: "plus and minus", does: "zoom" },
-  lens: { keys: ["[", "]"], said: "square brackets", does: "change the field of view" },
   freeze: { keys: ["v"], does: "freezes the viewpoint" },
   hidden: { keys: ["h"], does: "shows hidden points" },
   reset: { keys: ["r"], does: "resets the view" },
-  fullScreen: { keys: ["f"] },
   pick: { keys: ["p"], does: "picks a point" },
   measure: { keys: ["m"] },
   label: { keys: ["l"] },
@@ -52,11 +50,9 @@ export const SHEET: readonly (readonly [title: string, how: string])[] = [
   ["Pan", "right drag · two fingers · {pan}"],
   ["Zoom", "wheel · pinch · {zoom}"],
   ["Go to a point", "double click"],
-  ["Field of view", "[Alt] + wheel · {lens}"],
   ["Freeze viewpoint", "{freeze}"],
   ["Hidden points", "{hidden}"],
   ["Reset view", "{reset}"],
-  ["Full screen", "{fullScreen}"],
   ["Pick, measure, label", "{pick} {measure} {label} · click, or {middle} for the middle of the picture"],
   ["Select", "{select} · drag · [Shift] adds"],
   ["Compare", "{compare} · drag the line · {divide} on it"],
@@ -67,7 +63,7 @@ export const SHEET: readonly (readonly [title: string, how: string])[] = [
 ];
 
 /** The keys of a picture that is part of another page. */
-export const ELEMENT_KEYS: readonly Action[] = ["orbit", "pan", "zoom", "lens", "freeze", "hidden", "reset", "middle"];
+export const ELEMENT_KEYS: readonly Action[] = ["orbit", "pan", "zoom", "freeze", "hidden", "reset", "middle"];
 
 /** The keys of an action as they look on a keyboard. */
 export function shownKeys(action: Action): readonly string[] {

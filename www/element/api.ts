@@ -65,7 +65,7 @@ export interface HiddenPointCloudElement extends HTMLElement {
   radius: RadiusRule | number | null;
   /** How many looks make the answer when the camera rests; 0 is one hull. Only without the three around it. */
   looks: 0 | 2 | 3 | null;
-  /** `spherical`, `exponential`, `exponential:c` (c in spacings), `power` or `power:γ`. */
+  /** `spherical`, `exponential` or `exponential:c` (c in spacings). */
   inversion: string | null;
   hiddenPoints: "off" | "dimmed" | "shown";
   /** Whether the viewpoint stays where it is while the camera moves on. */

@@ -1,5 +1,4 @@
 import "./how.css";
-import { traced } from "../compare/truth.ts";
 import { upVector } from "../cloud/cloud.ts";
 import type { Store } from "../settings/store.ts";
 import { eased } from "../controls/ease.ts";
@@ -51,21 +50,10 @@ export async function showHow(viewer: Viewer, store: Store): Promise<void> {
     throw error;
   }
   const lesson = new Lesson(dialog, thinned, turnFrom(viewer, upVector(store.current.up)));
-  const closing = new AbortController();
   dialog.addEventListener("close", () => {
-    closing.abort();
     lesson.end();
     dialog.remove();
   });
-  const { surface } = viewer.scene;
-  if (surface) {
-    traced(viewer.scene, surface, at, closing.signal)
-      .then((seen) => {
-        lesson.setTruth(seen);
-      })
-      // Without the truth, the lesson goes on with the automatic radius.
-      .catch(() => undefined);
-  }
   await lesson.begin();
 }
 
@@ -76,9 +64,8 @@ class Lesson {
   readonly #calm = matchMedia("(prefers-reduced-motion: reduce)");
   #turn: Turn;
   #flipped: Flipped | null = null;
-  /** The points that the eye sees: in truth, or else with the automatic radius. */
+  /** The points that the eye sees with the automatic radius. */
   #seen: Uint8Array | null = null;
-  #isTruth = false;
   #begun = 0;
   #frame = 0;
 
@@ -119,14 +106,6 @@ class Lesson {
     this.#fly();
   }
 
-  /** `seen`: 1 for each point of the whole cloud that the eye sees. */
-  setTruth(seen: Uint8Array): void {
-    this.#seen = this.#thinned.share(seen);
-    this.#isTruth = true;
-    this.#tell();
-    this.#redraw();
-  }
-
   end(): void {
     cancelAnimationFrame(this.#frame);
     removeEventListener("resize", this.#redraw);
@@ -157,14 +136,11 @@ class Lesson {
     if (!this.#flipped) return;
     const counts = [0, 0, 0, 0];
     for (const kind of this.#kinds()) counts[kind]!++;
-    const [wrong, missed] = this.#isTruth
-      ? ["seen, but hidden in truth", "missed, but visible in truth"]
-      : ["more than with the automatic radius", "fewer than with the automatic radius"];
     const legend: [string, number, string][] = [
       ["--plain", counts[VISIBLE]!, "on the hull: seen"],
       ["--hidden-dimmed", counts[HIDDEN]!, "inside the hull: hidden"],
-      ["--only-ours", counts[WRONG]!, wrong],
-      ["--only-reference", counts[MISSED]!, missed],
+      ["--only-ours", counts[WRONG]!, "more than with the automatic radius"],
+      ["--only-reference", counts[MISSED]!, "fewer than with the automatic radius"],
     ];
     this.#part("ul", HTMLUListElement).replaceChildren(
       ...legend.map(([color, count, words]) => {

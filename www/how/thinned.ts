@@ -25,11 +25,9 @@ export class Thinned {
   /** The exponent of the automatic radius. */
   readonly automatic: number;
   readonly #points: WorkerPointCloud;
-  readonly #step: number;
 
-  private constructor(points: WorkerPointCloud, positions: Float32Array, step: number, automatic: number) {
+  private constructor(points: WorkerPointCloud, positions: Float32Array, automatic: number) {
     this.#points = points;
-    this.#step = step;
     this.positions = positions;
     this.count = positions.length / 3;
     this.automatic = automatic;
@@ -49,18 +47,13 @@ export class Thinned {
     }
     const points = await WorkerPointCloud.create(positions, { workers: 1 });
     const { exponent } = await points.autoRadius([0, 0, 0]);
-    return new Thinned(points, positions, step, exponent);
+    return new Thinned(points, positions, exponent);
   }
 
   /** Rejects with an AbortError if a newer radius is asked for. */
   async flip(exponent: number): Promise<Flipped> {
     const answer = await this.#points.reconstruct([0, 0, 0], { exponent, maxEdge: Infinity, latest: true });
     return { radius: answer.radius, visible: answer.mask(), faces: answer.triangles };
-  }
-
-  /** Of numbers of all points, those of the thinned ones. */
-  share(all: Uint8Array): Uint8Array {
-    return Uint8Array.from({ length: this.count }, (_, i) => all[i * this.#step]!);
   }
 
   dispose(): void {

@@ -11,8 +11,6 @@ export interface Named {
 const FILE = "file";
 /** The byte of each color of points without colors, beside points with colors. */
 const GRAY = 160;
-/** Files that are so many sizes apart look like specks in one picture. */
-const FAR = 100;
 
 const list = new Intl.ListFormat("en", { type: "conjunction" });
 
@@ -53,7 +51,6 @@ export function merged(parts: readonly Named[]): LoadedCloud {
         : []),
       ...colorNote(parts),
       ...systemNote(parts),
-      ...distanceNote(clouds),
     ],
   };
 }
@@ -162,28 +159,6 @@ function systemNote(parts: readonly Named[]): string[] {
   if (!given || systems.every(({ crs }) => isSame(crs, given))) return [];
   const said = systems.map(({ name, crs }) => `${name}: ${crs?.name ?? "none"}`).join("; ");
   return [`The files do not name one coordinate system (${said}). Their coordinates are shown as they are.`];
-}
-
-/** The boxes around the files, measured along the axis in which they are farthest apart. */
-function distanceNote(clouds: readonly LoadedCloud[]): string[] {
-  const boxes = clouds.map(({ positions }) => boxOf(positions));
-  const sizes = boxes.map(({ low, high }) => Math.hypot(...low.map((value, axis) => high[axis]! - value)));
-  const all = Math.hypot(
-    ...[0, 1, 2].map(
-      (axis) => Math.max(...boxes.map(({ high }) => high[axis]!)) - Math.min(...boxes.map(({ low }) => low[axis]!)),
-    ),
-  );
-  return all > FAR * Math.max(...sizes) ? ["The files lie far apart, so each is a speck in the first picture."] : [];
-}
-
-function boxOf(positions: ArrayLike<number>): { low: number[]; high: number[] } {
-  const low = [Infinity, Infinity, Infinity];
-  const high = [-Infinity, -Infinity, -Infinity];
-  for (let i = 0; i < positions.length; i++) {
-    low[i % 3] = Math.min(low[i % 3]!, positions[i]!);
-    high[i % 3] = Math.max(high[i % 3]!, positions[i]!);
-  }
-  return { low, high };
 }
 
 function sameUp(clouds: readonly LoadedCloud[]): Pick<LoadedCloud, "taken"> {

@@ -29,10 +29,7 @@ export async function calibrate(opened: Opened, { viewer, store, message }: Part
   const [{ viewpoint }] = measured as [(typeof measured)[number]];
   try {
     const { method } = viewOf(viewpoint, { ...before, ...looking, thickness: "auto" });
-    const { thickness, recall } = await inquiry.cloud.points.calibrate(
-      measured,
-      await inquiry.cloud.options(method, viewpoint),
-    );
+    const { thickness, recall } = await inquiry.cloud.points.calibrate(measured, inquiry.cloud.options(method));
     if (viewer.cloud !== cloud) return;
     store.change({ ...looking, thickness });
     const seen = recall.reduce((sum, share, i) => sum + share * measured[i]!.indices.length, 0);

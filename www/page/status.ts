@@ -1,3 +1,4 @@
+import type { Inversion } from "../settings/settings.ts";
 import { SETTINGS } from "../settings/table.ts";
 import type { Mapped, TimedView } from "../ask/inquiry.ts";
 import { byId } from "../controls/dom.ts";
@@ -135,5 +136,5 @@ export class Status {
 function inversionText(inversion: TimedView["visibility"]["inversion"]): string {
   return typeof inversion === "object" && "looks" in inversion
     ? `looks:${inversion.looks.join()}`
-    : SETTINGS.inversion.write(inversion);
+    : SETTINGS.inversion.write(inversion as Inversion);
 }

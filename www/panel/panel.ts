@@ -7,7 +7,6 @@ import { Moves } from "../view/moves.ts";
 import type { Turning } from "../view/turning.ts";
 import type { Viewer } from "../view/viewer.ts";
 import { bindColor, type ColorControl } from "./color.ts";
-import { toggleFullScreen } from "./full-screen.ts";
 import { explainLooks } from "./looks.ts";
 import { PointSize } from "./point-size.ts";
 import { bindRadius } from "./radius.ts";
@@ -33,9 +32,7 @@ export class Panel {
     explainLooks(store);
     this.#color = bindColor(store);
     viewer.onLegend = this.#color.explain;
-    const moves = new Moves(byId("view", HTMLCanvasElement), viewer, store, () => this.usual, {
-      fullScreen: toggleFullScreen,
-    });
+    const moves = new Moves(byId("view", HTMLCanvasElement), viewer, store, () => this.usual);
     bindFreeze(store, moves);
     bindVerbs(viewer, store, moves, turning);
     this.#pointSize = new PointSize(store);

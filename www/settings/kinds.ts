@@ -1,5 +1,4 @@
 import type { Inversion, Radius, Viewpoint } from "./types.ts";
-import { MOST_POWER } from "./limits.ts";
 
 /** A kind of value: how it is written as text, in the address and in attributes. */
 export interface Kind<T> {
@@ -105,15 +104,14 @@ export const INVERSION: Kind<Inversion> = {
     const value = parameter === undefined ? "auto" : parseNumber(parameter);
     if (word === "spherical" && parameter === undefined) return "spherical";
     if (word === "exponential" && (value === "auto" || (value > 0 && value < Infinity))) return { exponential: value };
-    if (word === "power" && (value === "auto" || (value > 1 && value <= MOST_POWER))) return { power: value };
     return undefined;
   },
   write: (inversion) => {
     if (inversion === "spherical") return inversion;
-    const [word, value] = "power" in inversion ? ["power", inversion.power] : ["exponential", inversion.exponential];
-    return value === "auto" ? word : `${word}:${value}`;
+    const { exponential } = inversion;
+    return exponential === "auto" ? "exponential" : `exponential:${exponential}`;
   },
-  values: `\`spherical\`, \`exponential\`, \`exponential:c\` with a positive c, \`power\` or \`power:γ\` with γ above 1 and at most ${MOST_POWER}`,
+  values: "`spherical`, `exponential` or `exponential:c` with a positive c",
 };
 
 /** Like `Number`, but an empty text gives no number. */

@@ -9,9 +9,6 @@ export const MAX_POINTS = 10_000_000;
 /** The page's exponents, log₁₀ of radius ÷ farthest distance, go from 0 to this. */
 export const MOST_EXPONENT = 6;
 
-/** The library's limit of γ. */
-export const MOST_POWER = 16;
-
 /** Where the line that divides the picture first stands, as a share of its width. */
 export const MIDDLE = 0.5;
 

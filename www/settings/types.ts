@@ -14,7 +14,7 @@ export type Radius = { rule: "auto" | "search" | "opposite" } | { exponent: numb
 export type Looks = 0 | 2 | 3;
 
 /** How points are flipped. The exponential's c is counted in spacings, so that it suits clouds of any size. */
-export type Inversion = "spherical" | { exponential: number | "auto" } | { power: number | "auto" };
+export type Inversion = "spherical" | { exponential: number | "auto" };
 
 /** The colors of the page: those that the system asks for, or always one theme. */
 export type ThemeChoice = "system" | "dark" | "light";

@@ -6,10 +6,7 @@ import type { StreamMethod } from "./protocol.ts";
  * and looks do, too. For them, the automatic exponential inversion is used.
  */
 export function streamMethodOf({ radius, inversion }: Settings): StreamMethod | null {
-  if (inversion !== "spherical") {
-    if ("exponential" in inversion) return inversion;
-    return inversion.power === "auto" ? null : { power: inversion.power };
-  }
+  if (inversion !== "spherical") return inversion;
   if ("length" in radius) return { length: radius.length };
   return "rule" in radius && radius.rule === "auto" ? "automatic" : null;
 }

@@ -3,7 +3,7 @@ import type { Streamed } from "../cloud/cloud.ts";
 import type { Viewpoint } from "../settings/settings.ts";
 
 /** How a streamed octree is seen. */
-export type StreamMethod = "automatic" | { length: number } | { exponential: number | "auto" } | { power: number };
+export type StreamMethod = "automatic" | { length: number } | { exponential: number | "auto" };
 
 /** The viewpoint and the method of one view of an octree. */
 export interface StreamView {

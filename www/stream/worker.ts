@@ -75,19 +75,11 @@ function displayed(colors: Uint16Array | undefined, scale: number | null): Strea
   return new Uint8Array(Uint8ClampedArray.from(colors, (value) => value * scale).buffer);
 }
 
-async function optionsFor(octree: Octree, { viewpoint, method }: StreamView): Promise<MergeOptions> {
+async function optionsFor(octree: Octree, { method }: StreamView): Promise<MergeOptions> {
   if (method === "automatic") return {};
   if ("length" in method) return { radius: method.length };
-  if ("exponential" in method) {
-    const { exponential } = method;
-    return exponential === "auto" ? {} : { inversion: { exponential: exponential * (await octree.spacing()) } };
-  }
-  const { min, max } = octree.bounds;
-  const far = min.map((low, axis) =>
-    Math.max(Math.abs(low - viewpoint[axis]!), Math.abs(max[axis]! - viewpoint[axis]!)),
-  );
-  // Rounded bounds must not make the radius smaller than the distance of a point.
-  return { radius: 1.01 * Math.hypot(...far), inversion: { power: method.power } };
+  const { exponential } = method;
+  return exponential === "auto" ? {} : { inversion: { exponential: exponential * (await octree.spacing()) } };
 }
 
 function sentenceOf(error: unknown): string {

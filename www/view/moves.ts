@@ -1,5 +1,4 @@
 import { type Action, pressed } from "../controls/keys.ts";
-import { FIELD_OF_VIEW } from "../settings/limits.ts";
 import type { Settings } from "../settings/settings.ts";
 import type { Store } from "../settings/store.ts";
 import { HIDDEN_MODES } from "../settings/table.ts";
@@ -12,23 +11,12 @@ export class Moves {
   /** A reset goes back to these settings. */
   readonly #usual: () => Pick<Settings, "fieldOfView">;
 
-  /** Also binds the keys of the canvas. `more` are the keys that only the page has. */
-  constructor(
-    canvas: HTMLCanvasElement,
-    viewer: Viewer,
-    store: Store,
-    usual: () => Pick<Settings, "fieldOfView">,
-    more: Partial<Record<Action, () => void>> = {},
-  ) {
+  /** Also binds the keys of the canvas. */
+  constructor(canvas: HTMLCanvasElement, viewer: Viewer, store: Store, usual: () => Pick<Settings, "fieldOfView">) {
     this.#viewer = viewer;
     this.#store = store;
     this.#usual = usual;
-    viewer.navigation.onFieldOfView = (factor) => {
-      const wanted = store.current.fieldOfView * factor;
-      store.change({ fieldOfView: Math.min(FIELD_OF_VIEW.most, Math.max(FIELD_OF_VIEW.least, wanted)) });
-    };
     const actions: Partial<Record<Action, () => void>> = {
-      ...more,
       freeze: () => {
         this.freeze(!this.frozen);
       },

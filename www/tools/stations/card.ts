@@ -4,13 +4,11 @@ import type { Viewshed } from "./viewshed.ts";
 
 export interface StationActions {
   here: () => void;
-  read: (file: File) => void;
   suggest: () => void;
   stop: () => void;
   remove: (number: number) => void;
   clear: () => void;
-  saveStations: () => void;
-  savePoints: (ending: "ply" | "csv") => void;
+  save: () => void;
 }
 
 const number = new Intl.NumberFormat("en-US");
@@ -41,29 +39,13 @@ export class StationCard {
 
   constructor(card: HTMLElement, actions: StationActions) {
     this.#actions = actions;
-    const file = make("input", { type: "file", accept: ".csv,.txt", "aria-label": "Read stations", tabindex: "-1" });
-    file.addEventListener("change", () => {
-      const [chosen] = file.files ?? [];
-      if (chosen) actions.read(chosen);
-      file.value = "";
-    });
     this.#work = make("div", { class: "work", hidden: true }, this.#bar, button("Stop", actions.stop));
     this.#clear = button("Remove all", actions.clear, { hidden: true });
     this.#suggest = button("Suggest one", actions.suggest, {
       title:
         "Tries places on a grid over the ground. Takes the place that sees most of the points that no station sees.",
     });
-    this.#results = make(
-      "div",
-      { class: "files", hidden: true },
-      button("Stations, CSV", actions.saveStations),
-      button("Points, PLY", () => {
-        actions.savePoints("ply");
-      }),
-      button("Points, CSV", () => {
-        actions.savePoints("csv");
-      }),
-    );
+    this.#results = make("div", { class: "files", hidden: true }, button("Points, PLY", actions.save));
     card.replaceChildren(
       this.#said,
       this.#table,
@@ -72,21 +54,7 @@ export class StationCard {
       this.#unseen,
       this.#results,
       this.#height.row,
-      make(
-        "div",
-        { class: "files" },
-        button("At the camera", actions.here),
-        button(
-          "Read a list …",
-          () => {
-            file.click();
-          },
-          { title: "A file with lines of name, x, y, z" },
-        ),
-        this.#suggest,
-        this.#clear,
-      ),
-      file,
+      make("div", { class: "files" }, button("At the camera", actions.here), this.#suggest, this.#clear),
     );
   }
 

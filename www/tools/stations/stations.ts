@@ -1,9 +1,8 @@
 import { OWN_COLORS, type Viewpoint } from "../../settings/settings.ts";
 import type { Store } from "../../settings/store.ts";
 import { STATION_COLORS } from "../../settings/table.ts";
-import { csvWord } from "../csv.ts";
-import { BATCH, contentOf, save, stemOf } from "../files.ts";
-import { coordinatesAt, indexInFile, measuresOf } from "../figures.ts";
+import { contentOf, save, stemOf } from "../files.ts";
+import { measuresOf } from "../figures.ts";
 import type { Spot } from "../find.ts";
 import type { Mark } from "../marks.ts";
 import { plyParts } from "../../../src/ts/formats/write/ply.js";
@@ -11,7 +10,6 @@ import type { Bench, Tool } from "../tool.ts";
 import { candidatesOver } from "./candidates.ts";
 import { StationCard } from "./card.ts";
 import { countColors } from "./colors.ts";
-import { readStations } from "./csv.ts";
 import { MOST_STATIONS, type Station } from "./station.ts";
 import { type Under, type Viewshed, ViewshedFinder } from "./viewshed.ts";
 
@@ -42,7 +40,6 @@ export class Stations implements Tool {
           this.add([{ name: this.#nextName(), at: store.current.freeze ?? bench.viewer.viewpoint }]);
         }
       },
-      read: (file) => void this.#read(file),
       suggest: () => void this.#suggest(),
       stop: () => {
         this.#running?.abort();
@@ -55,8 +52,7 @@ export class Stations implements Tool {
         this.#stations = [];
         this.#changed();
       },
-      saveStations: () => void this.#saveStations(),
-      savePoints: (ending) => void this.#savePoints(ending),
+      save: () => void this.#save(),
     });
     store.follow((now, before) => {
       const { viewer } = bench;
@@ -134,14 +130,6 @@ export class Stations implements Tool {
     let i = this.#stations.length + 1;
     while (names.has(`S${i}`)) i++;
     return `S${i}`;
-  }
-
-  async #read(file: File): Promise<void> {
-    try {
-      this.add(readStations(await file.text()));
-    } catch (error) {
-      this.#card.say((error as Error).message);
-    }
   }
 
   /** Asks again, since there are other stations. */
@@ -224,39 +212,20 @@ export class Stations implements Tool {
     }
   }
 
-  async #saveStations(): Promise<void> {
-    const { rows } = this.#found!;
-    const lines = this.#stations.map(({ name, at }, i) =>
-      [csvWord(name), ...at.map(String), rows[i]!.sees, rows[i]!.alone].join(),
-    );
-    await this.#save("stations.csv", [["name,x,y,z,sees,alone", ...lines, ""].join("\n")]);
-  }
-
-  async #savePoints(ending: "ply" | "csv"): Promise<void> {
-    const { scene } = this.#bench.viewer;
+  /** Saves the points with the number of stations that see each of them. */
+  async #save(): Promise<void> {
+    const { cloud, positions } = this.#bench.viewer.scene;
     const { counts } = this.#found!;
-    const { cloud, positions } = scene;
-    const indices = Uint32Array.from(counts.keys());
-    if (ending === "csv") {
-      await this.#save(
-        "seen-by-stations.csv",
-        csvParts(indices, (i) => `${indexInFile(cloud, i)},${coordinatesAt(scene, i).join()},${counts[i]!}`),
-      );
-      return;
-    }
     const { colors, fields } = contentOf(cloud);
+    const indices = Uint32Array.from(counts.keys());
     const comments = this.#stations.map(
       ({ name, at }) => `Station ${name.replace(/[^\x20-\x7e]/g, "?")} ${at.join(" ")}`,
     );
-    await this.#save(
-      "seen-by-stations.ply",
+    const file = `${stemOf(this.#bench.name())}-seen-by-stations.ply`;
+    await save(
+      file,
       plyParts({ positions, colors, fields: [...fields, { name: "stations", values: counts }], indices }, comments),
     );
-  }
-
-  async #save(ending: string, parts: Iterable<BlobPart>): Promise<void> {
-    const file = `${stemOf(this.#bench.name())}-${ending}`;
-    await save(file, parts);
     this.#card.say(`Saved as ${file}.`);
   }
 }
@@ -268,11 +237,4 @@ function colorsOf({ counts, rows }: Viewshed) {
     count === 0 ? "seen by none" : `seen by ${count}${count === rows.length && count > 1 ? " (all)" : ""}`,
   );
   return { name: STATION_COLORS, kind: "category" as const, values: counts, labels, colors: countColors(most) };
-}
-
-function* csvParts(indices: Uint32Array, line: (index: number) => string): Generator<string> {
-  yield "index,x,y,z,stations\n";
-  for (let from = 0; from < indices.length; from += BATCH) {
-    yield `${Array.from(indices.subarray(from, from + BATCH), line).join("\n")}\n`;
-  }
 }

@@ -57,15 +57,14 @@ export class ViewshedFinder {
   ): Promise<{ at: Viewpoint; gain: number } | null> {
     const { points } = this.#inquiry.cloud;
     const weights = Uint8Array.from({ length: points.length }, (_, i) => Number(unseen(i)));
-    const first = candidates[0]!;
-    const options = await this.#inquiry.cloud.options(this.#inquiry.methodOf(settings), first);
+    const options = this.#inquiry.cloud.options(this.#inquiry.methodOf(settings));
     const { chosen, gains } = await points.placeViewpoints(candidates, { ...options, weights, count: 1, ...under });
     return chosen.length === 0 ? null : { at: candidates[chosen[0]!]!, gain: gains[0]! };
   }
 
   async #ask(at: Viewpoint, method: Method, signal: AbortSignal): Promise<Uint8Array> {
     const { cloud } = this.#inquiry;
-    return Uint8Array.from(await cloud.points.coverage([at], { ...(await cloud.options(method, at)), signal }));
+    return Uint8Array.from(await cloud.points.coverage([at], { ...cloud.options(method), signal }));
   }
 }
 
