@@ -39,6 +39,6 @@ short! {
     coverage 60;
     invariance 300;
     parts 100;
-    maps 20;
+    maps 8;
     threads 100;
 }

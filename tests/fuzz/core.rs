@@ -37,5 +37,7 @@ fn main() {
             }
         }
     }
+    let tested = checks::maps::TESTED.load(std::sync::atomic::Ordering::Relaxed);
+    println!("maps: {tested} points tested");
     run.finish();
 }

@@ -1,8 +1,12 @@
-//! No map of a viewpoint hides a point that is visible from there with the same options, whatever its size, its
-//! directions and its origin are, and whatever was asked before. The viewpoint walks around, in and through the cloud.
+//! No map of a viewpoint hides a point that is visible from there with the same options, or any place in front of
+//! the hull, whatever its size, its directions and its origin are, and whatever was asked before. The
+//! viewpoint walks around, in and through the cloud.
 
-use hidden_point_removal::{Error, MapOptions, Options, PointCloud};
+use std::sync::atomic::{AtomicU64, Ordering};
 
+use hidden_point_removal::{Error, MapOptions, Options, PointCloud, Reconstruction};
+
+use crate::common::flip::{flip_as, unflipped_as};
 use crate::common::rng::Rng;
 use crate::common::scenes::Scene;
 use crate::common::shapes::{self, Points};
@@ -12,6 +16,11 @@ use crate::common::walked::{self, inversion};
 /// The number of views of one cloud, and of maps of one view.
 const WALK: usize = 6;
 const MAPS: usize = 6;
+/// How many places in front of the hull each map is asked about.
+const PLACES: usize = 20_000;
+
+/// How many visible points and places were tested.
+pub static TESTED: AtomicU64 = AtomicU64::new(0);
 
 pub fn check(scene: &Scene, rng: &mut Rng) -> Result<(), String> {
     let mut points = scene.points.clone();
@@ -32,17 +41,25 @@ pub fn check(scene: &Scene, rng: &mut Rng) -> Result<(), String> {
             options = Options::with_inversion(inversion(rng));
         }
         let from = walk.viewpoint;
-        if let Ok(seen) = cloud.visible_from(from, &options) {
-            let visible: Points = (seen.indices().iter())
+        if let Ok(hull) = cloud.reconstruct(from, &options, Some(f64::INFINITY)) {
+            let visible: Points = (hull.visibility.indices().iter())
                 .map(|&index| points[index as usize])
                 .collect();
+            let front = Front::of(&points, from, &hull);
             for _ in 0..MAPS {
                 let asked = size(rng, from, &visible);
                 let map = match observer.visibility_map(from, &options, &asked) {
                     Err(Error::Excludes { .. }) => break,
                     made => made.map_err(|error| format!("{asked:?}: {error}"))?,
                 };
-                if let Some(point) = visible.iter().find(|&&point| map.hides(point)) {
+                let mut tested = 0;
+                let mut places = (0..PLACES).filter_map(|_| front.place(rng));
+                let hidden = (visible.iter().copied())
+                    .chain(&mut places)
+                    .inspect(|_| tested += 1)
+                    .find(|&point| map.hides(point));
+                TESTED.fetch_add(tested, Ordering::Relaxed);
+                if let Some(point) = hidden {
                     return Err(format!(
                         "{point:?} is hidden from {from:?} with {options:?}, {asked:?}"
                     ));
@@ -52,6 +69,70 @@ pub fn check(scene: &Scene, rng: &mut Rng) -> Result<(), String> {
         walk.step(rng);
     }
     Ok(())
+}
+
+/// What lies right in front of the outer faces of K. No point there is in K, so none may be hidden.
+struct Front<'a> {
+    from: [f64; 3],
+    hull: &'a Reconstruction,
+    /// The flipped points of each face, its normal, and the normal's product with them.
+    faces: Vec<([[f64; 3]; 3], [f64; 3], f64)>,
+}
+
+impl<'a> Front<'a> {
+    fn of(points: &[[f64; 3]], from: [f64; 3], hull: &'a Reconstruction) -> Self {
+        let flipped = |index: u32| flip_as(points[index as usize], from, &hull.visibility);
+        let faces = (hull.triangles.iter())
+            .filter_map(|&[a, b, c]| {
+                let [a, b, c] = [flipped(a)?, flipped(b)?, flipped(c)?];
+                let [right, up] = [minus(c, a), minus(b, a)];
+                let normal = cross(right, up);
+                // The normal of a thin triangle is not known well.
+                let is_wide = length(normal) > 1e-4 * length(right) * length(up);
+                is_wide.then(|| ([a, b, c], normal, dot(normal, a)))
+            })
+            .collect();
+        Self { from, hull, faces }
+    }
+
+    /// `None` where it is not certain that the place is in front.
+    fn place(&self, rng: &mut Rng) -> Option<[f64; 3]> {
+        if self.faces.is_empty() {
+            return None;
+        }
+        let (corners, normal, depth) = &self.faces[rng.below(self.faces.len())];
+        // Near a corner, near an edge, or anywhere.
+        let mut shares = [0.0; 3].map(|_: f64| rng.between(0.0, 1.0));
+        for share in &mut shares {
+            *share *= rng.pick(&[1.0, 1.0, 1e-3, 1e-6]);
+        }
+        let sum: f64 = shares.iter().sum();
+        let out = 1.0 + rng.pick(&[1e-9, 1e-7, 1e-5, 1e-3]);
+        let flipped = core::array::from_fn(|axis| {
+            let on = |corner: usize| corners[corner][axis] * (shares[corner] / sum);
+            (on(0) + on(1) + on(2)) * out
+        });
+        let place = unflipped_as(flipped, self.from, &self.hull.visibility)?;
+        let again = flip_as(place, self.from, &self.hull.visibility)?;
+        let doubt = 1e-10 * length(*normal) * length(again);
+        (dot(*normal, again) > depth + doubt).then_some(place)
+    }
+}
+
+fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    core::array::from_fn(|axis| a[axis] - b[axis])
+}
+
+fn cross([a, b, c]: [f64; 3], [x, y, z]: [f64; 3]) -> [f64; 3] {
+    [b * z - c * y, c * x - a * z, a * y - b * x]
+}
+
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn length(a: [f64; 3]) -> f64 {
+    dot(a, a).sqrt()
 }
 
 /// Some clouds are large, since a map has more to hide there, and some are far from the origin.

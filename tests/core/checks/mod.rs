@@ -16,7 +16,7 @@ mod coverage;
 mod dimensions;
 mod drafts;
 mod invariance;
-mod maps;
+pub mod maps;
 mod oracle;
 mod parts;
 mod sectors;

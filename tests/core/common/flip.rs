@@ -48,3 +48,17 @@ pub fn flip_as(p: [f64; 3], viewpoint: [f64; 3], answer: &Visibility) -> Option<
     // A point beyond the range of f64 counts like a point at the viewpoint.
     Some(v.map(|x| x * s)).filter(|q| q.iter().all(|x| x.is_finite()))
 }
+
+/// The place whose flip is about q, by the flip that an answer reports.
+pub fn unflipped_as(q: [f64; 3], viewpoint: [f64; 3], answer: &Visibility) -> Option<[f64; 3]> {
+    let (_, far) = relative(q, [0.0; 3]);
+    let radius = answer.radius();
+    let d = match answer.inversion() {
+        Inversion::Spherical => 2.0 * radius - far,
+        Inversion::Power(gamma) => radius * libm::pow(far / radius, 1.0 / (1.0 - gamma)),
+        Inversion::Exponential(Exponential::Scale(c)) => c / libm::log(far),
+        other => panic!("{other:?} is not one resolved inversion"),
+    };
+    let place = core::array::from_fn(|axis| viewpoint[axis] + q[axis] * (d / far));
+    (d > 0.0 && place.iter().all(|x| x.is_finite())).then_some(place)
+}
