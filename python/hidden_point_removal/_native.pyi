@@ -261,7 +261,7 @@ class PointCloud:
         viewpoint: ArrayLike,
         *,
         points: int | None = 32_768,
-        corners: int | None = 65_536,
+        corners: int | None = 131_072,
         towards: Camera | Cone | None = None,
         origin: ArrayLike | None = None,
         **options: Unpack[Options],

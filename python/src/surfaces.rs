@@ -14,7 +14,7 @@ use crate::visibility::Visibility;
 
 #[pymethods]
 impl PointCloud {
-    #[doc = asks!("visibility_map($self, viewpoint, *, points=32768, corners=65536, towards=None, origin=None")]
+    #[doc = asks!("visibility_map($self, viewpoint, *, points=32768, corners=131072, towards=None, origin=None")]
     /// A map of directions, which tells for any number of places whether they are certainly hidden.
     ///
     /// viewpoint: 3 numbers.

@@ -91,8 +91,7 @@ impl Observer<'_> {
             .visible_in_sector_with(&mut self.memory, viewpoint, options, sector)
     }
 
-    /// As [`PointCloud::visibility_map`]. The map is made of points that the last map did not hide, so
-    /// it hides more.
+    /// As [`PointCloud::visibility_map`]. The points to choose from are kept for the next map.
     ///
     /// # Errors
     /// As [`PointCloud::visibility_map`].

@@ -359,7 +359,7 @@ impl DepthMap {
 
 /// The side of the cube that `v` points to, the place (x, y) there, and z.
 #[inline]
-pub(super) fn place(v: DVec3) -> (usize, f64, f64, f64) {
+pub(crate) fn place(v: DVec3) -> (usize, f64, f64, f64) {
     let a = v.abs();
     if a.z >= a.x && a.z >= a.y {
         let inverse = 1.0 / a.z;

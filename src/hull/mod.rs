@@ -38,7 +38,7 @@ mod triangles;
 
 pub(crate) use boxes::hides_box;
 pub(crate) use certain::certain_among;
-pub(crate) use depth::{Window, direction};
+pub(crate) use depth::{Window, direction, place};
 #[cfg(feature = "higher")]
 pub(crate) use exact_sum::Parts;
 pub(crate) use kept::KeptHull;

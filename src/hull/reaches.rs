@@ -29,6 +29,9 @@ pub(crate) struct Reaches {
     pub faces: Vec<FaceId>,
 }
 
+/// From here on, the window of a side of the cube reaches to the side's edge.
+const NEAR_EDGE: f64 = 0.95;
+
 pub(crate) const NO_FACE: FaceId = FaceId::MAX;
 
 /// Three corners of a face on a side of the cube.
@@ -53,9 +56,6 @@ impl Memory {
         for &(side, place) in &seen[1..] {
             sides[side].include(place);
         }
-        self.each_face(&seen, true, &mut |side, places, _| {
-            places.iter().for_each(|&place| sides[side].include(place));
-        });
         let Some((windows, cells_per_unit)) = grid(&sides, count) else {
             return Ok(None);
         };
@@ -65,7 +65,7 @@ impl Memory {
             cells_per_unit,
             faces: filled(corners, NO_FACE)?,
         };
-        self.each_face(&seen, false, &mut |side, places, id| {
+        self.each_face(&seen, &mut |side, places, id| {
             reaches.fill(side, places, id);
         });
         Ok(Some(reaches))
@@ -76,32 +76,25 @@ impl Memory {
         (id != NO_FACE).then(|| self.hull.surface.face(id).vertices)
     }
 
-    /// An upper bound of w along (x, y, 1) on a side of the cube, which is inside this face: K ends at
-    /// 1/w times (x, y, 1) or beyond. Infinite where none is known.
+    /// An upper bound of w along a direction inside this face: K ends at 1/w times the direction or beyond. Its coordinates
+    /// are at most 1. Infinite where none is known.
     #[inline]
-    pub(crate) fn height(&self, id: FaceId, side: usize, [right, up]: [f64; 2]) -> f64 {
+    pub(crate) fn height(&self, id: FaceId, direction: DVec3) -> f64 {
         if id == NO_FACE {
             return f64::INFINITY;
         }
         let plane = &self.hull.surface.face(id).data;
-        let (x, y, z) = turned(side, plane.m);
-        let height = x * right + y * up + z;
+        let height = plane.m.dot(direction);
         if height <= 0.0 {
             return f64::INFINITY;
         }
-        let spread = x.abs() + y.abs() + z.abs();
-        height * (1.0 + 2.0 * plane.error) + spread * HEIGHT_ERROR
+        let m = plane.m.abs();
+        height * (1.0 + 2.0 * plane.error) + (m.x + m.y + m.z) * HEIGHT_ERROR
     }
 
-    /// Passes each outer face on each side of the cube that it is on, or only those on several sides.
-    /// `seen`: the side and the place of each vertex.
+    /// Passes each outer face on each side of the cube that it is on. `seen`: the side and the place of each vertex.
     #[inline(never)]
-    fn each_face(
-        &self,
-        seen: &[(usize, [f64; 2])],
-        across_only: bool,
-        pass: &mut dyn FnMut(usize, Places, FaceId),
-    ) {
+    fn each_face(&self, seen: &[(usize, [f64; 2])], pass: &mut dyn FnMut(usize, Places, FaceId)) {
         let hull = &self.hull;
         for (id, face) in hull.surface.alive() {
             let [(a, p), (b, q), (c, r)] = face.vertices.map(|vertex| seen[vertex as usize]);
@@ -109,9 +102,7 @@ impl Memory {
                 continue;
             }
             if a == b && a == c {
-                if !across_only {
-                    pass(a, [p, q, r], id);
-                }
+                pass(a, [p, q, r], id);
                 continue;
             }
             let corners = face.vertices.map(|vertex| hull.vertices.at(vertex));
@@ -151,7 +142,12 @@ impl Side {
 
     fn include(&mut self, place: [f64; 2]) {
         for axis in 0..2 {
-            let x = larger(smaller(place[axis], 1.0), -1.0);
+            // Near an edge of the cube faces go on to the next side.
+            let x = match place[axis] {
+                x if x > NEAR_EDGE => 1.0,
+                x if x < -NEAR_EDGE => -1.0,
+                x => x,
+            };
             self.low[axis] = smaller(self.low[axis], x);
             self.high[axis] = larger(self.high[axis], x);
         }

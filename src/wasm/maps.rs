@@ -37,7 +37,7 @@ pub fn visibility_map(
     map.copy_to(&mut numbers);
     let [points, corners, a, b, c, angle, origin @ ..] = numbers;
     let made = with_view(handle, Some([x, y, z]), options, &view, |cloud| {
-        let usual = MapOptions::for_points(cloud.len());
+        let usual = MapOptions::default();
         let size = |given: f64, usual| if given == 0.0 { usual } else { given as usize };
         let choices = MapOptions {
             points: size(points, usual.points),

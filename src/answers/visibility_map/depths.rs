@@ -21,10 +21,12 @@ use crate::answers::visibility_map::hides::VisibilityMap;
 use crate::base::allocation::{OutOfMemory, filled};
 use crate::base::real::{larger, smaller, square_root};
 use crate::flip::inversion::Flip;
-use crate::hull::{Memory, Reaches, Window};
+use crate::hull::{Memory, Reaches, Window, direction};
 
-/// Stands for a direction in which nothing is hidden.
-pub(super) const NOWHERE: f32 = 1e30;
+/// Stands for a direction in which nothing is hidden. No length in single precision is larger.
+pub(super) const NOWHERE: f32 = f32::MAX;
+/// The largest other distance.
+const MOST: f64 = 1e30;
 /// The least distance in a map. Single precision may flush a smaller one to 0.
 const LEAST: f64 = 1e-30;
 /// The share of the least reach of a cell that its interpolation may lose.
@@ -47,8 +49,11 @@ impl VisibilityMap {
         let mut least = filled(lengths.len(), 0.0)?;
         let mut distances = filled(lengths.len(), NOWHERE)?;
         for (side, window) in reaches.windows.iter().enumerate() {
-            each_corner(window, cell, &mut |place, at, squared| {
-                let height = hull.height(reaches.faces[place], side, at);
+            let [middle, x, y] =
+                [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]].map(|[x, y]| direction(side, x, y));
+            let (right, up) = (x - middle, y - middle);
+            each_corner(window, cell, &mut |place, [x, y], squared| {
+                let height = hull.height(reaches.faces[place], middle + right * x + up * y);
                 lengths[place] = square_root(squared) / height * (1.0 - ROUNDING);
                 least[place] = lengths[place];
             });
@@ -68,7 +73,7 @@ impl VisibilityMap {
 
 /// A distance in single precision, at least as large.
 pub(super) fn stored(distance: f64) -> f32 {
-    if distance < f64::from(NOWHERE) {
+    if distance < MOST {
         (larger(distance, LEAST) * UP) as f32
     } else {
         NOWHERE
@@ -113,24 +118,37 @@ pub(super) fn each_cell(window: &Window, pass: &mut impl FnMut([usize; 4])) {
 
 /// For all corners of a window, lowers the reaches by what the cells around lose.
 fn lower(window: &Window, cell: f64, lengths: &[f64], least: &mut [f64]) {
-    each_cell(window, &mut |corners| {
-        let [mut m, mut above] = [f64::INFINITY, 0.0];
-        for corner in corners {
-            m = smaller(m, lengths[corner]);
-            above = larger(above, lengths[corner]);
-        }
-        // A cell with an unknown corner hides nothing.
-        if m > 0.0 {
-            let range = above - m;
+    let across = window.columns + 1;
+    for row in 0..window.rows {
+        let both = window.first + row * across..window.first + (row + 2) * across;
+        let (low, high) = lengths[both.clone()].split_at(across);
+        let (least_low, least_high) = least[both].split_at_mut(across);
+        for column in 0..window.columns {
+            let [a, b] = [low[column], low[column + 1]];
+            let [c, d] = [high[column], high[column + 1]];
+            let m = smaller(smaller(a, b), smaller(c, d));
+            // A cell with an unknown corner hides nothing.
+            if m <= 0.0 {
+                continue;
+            }
+            let range = larger(larger(a, b), larger(c, d)) - m;
             let lost = range * (0.25 * range / m + 0.708 * cell) * (1.0 + 1e-12);
-            for corner in corners {
-                let left = if lost < MOST_LOST * m {
-                    lengths[corner] - lost
+            let left = |length: f64| {
+                if lost < MOST_LOST * m {
+                    length - lost
                 } else {
                     m
-                };
-                least[corner] = smaller(least[corner], left);
+                }
+            };
+            for (least, length) in [(&mut least_low[column], a), (&mut least_high[column], c)] {
+                *least = smaller(*least, left(length));
+            }
+            for (least, length) in [
+                (&mut least_low[column + 1], b),
+                (&mut least_high[column + 1], d),
+            ] {
+                *least = smaller(*least, left(length));
             }
         }
-    });
+    }
 }

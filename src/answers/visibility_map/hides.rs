@@ -11,7 +11,6 @@
 //! - |v| is wrong by less than 16u of it, and by 2u·C.
 //! - The interpolation of positive numbers is wrong by less than 16u of the largest.
 
-use alloc::sync::Arc;
 use alloc::vec::Vec;
 
 use crate::base::allocation::{OutOfMemory, filled};
@@ -36,8 +35,7 @@ pub struct VisibilityMap {
     error: f64,
     /// Cells a unit, border, border for each 1/z, and the error of a distance.
     numbers: [f32; 4],
-    /// Shared with the copy that the next map is chosen by.
-    data: Arc<Vec<f32>>,
+    data: Vec<f32>,
 }
 
 impl VisibilityMap {
@@ -50,7 +48,7 @@ impl VisibilityMap {
             local,
             error: moved,
             numbers: [0.0; 4],
-            data: Arc::default(),
+            data: Vec::new(),
         };
         map.error += map.distance_of_origin() * UNIT * 1.01 + 1e-36;
         map
@@ -86,7 +84,7 @@ impl VisibilityMap {
             up(2.2 * self.error * cells),
             up(2.0 * self.error),
         ];
-        self.data = Arc::new(data);
+        self.data = data;
         Ok(())
     }
 

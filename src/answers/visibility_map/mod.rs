@@ -3,8 +3,7 @@
 //! INPUT    a cloud, a viewpoint, a budget of points and of corners.
 //! OUTPUT   for each corner of a grid of directions a distance; a point beyond it is hidden.
 //! SUMMARY  K of a sample lies inside K of all points. So what the sample's hull hides is hidden
-//!          for certain. The sample is taken from a pool: points that the last map hid hide
-//!          nothing (`pool`). The reaches of the hull become distances (`depths`), or those of
+//!          for certain: of an even sample, the nearest points in each direction (`pool`). The reaches of the hull become distances (`depths`), or those of
 //!          its triangles where the map stands in for looks (`surface`). One comparison in
 //!          single precision tests a point (`hides`).
 
@@ -36,8 +35,12 @@ use surface::Look;
 /// Distances in a map are between the first number and the last one, in the cloud's units.
 const UNITS: core::ops::Range<f64> = 1e-15..1e15;
 
+/// A map takes one in so many of the points that are probably visible in the whole cloud: more would cost much of what the
+/// exact answer costs. Looks cost more. Of some directions it takes all.
+const ONE_IN: f64 = 12.0;
+const ONE_IN_LOOKS: f64 = 2.0;
 /// The most corners for each point of a map, of which there are at least `FEW`.
-const CORNERS: usize = 4;
+const CORNERS: usize = 8;
 
 /// What a map is asked about. Points may have been `moved` so far.
 struct Asked<'a> {
@@ -55,7 +58,7 @@ impl PointCloud {
     /// It never hides a point that [`PointCloud::visible_from`] shows with the same options, except
     /// with [`Inversion::Looks`](crate::Inversion::Looks): there it hides hardly any point that the looks
     /// show. It shows all visible points and some hidden ones. An
-    /// [`Observer`](crate::Observer) makes better maps from the last one.
+    /// [`Observer`](crate::Observer) makes further maps faster.
     ///
     /// # Errors
     /// As [`PointCloud::visible_from`]; [`Error::Excludes`] for `draft`, `scores`, `vote` and a
@@ -113,12 +116,18 @@ impl PointCloud {
             survey = memory.survey(self, options.thickness)?;
         }
         let source = looked_at(&survey, options.thickness, self);
-        let MapMemory { hull, pool, last } = &mut memory.maps;
+        let MapMemory { hull, pool } = &mut memory.maps;
         let is_smooth = !core::ptr::eq(source, self);
-        let pool = Pool::of(pool, &source.sequence.points, is_smooth, map)?;
-        let chosen = pool.choose(viewpoint, map, is_look, last.as_ref())?;
+        let points = &source.sequence.points;
+        let pool = Pool::of(pool, points, is_smooth, map)?;
+        let one_in = match map.towards {
+            None if is_look => ONE_IN_LOOKS,
+            None => ONE_IN,
+            Some(_) => 1.0,
+        };
+        let (chosen, stands_for) = pool.choose(viewpoint, map, one_in)?;
         let (flip, thickness, farthest) = if is_look {
-            let apart = square_root(pool.stands_for());
+            let apart = square_root(stands_for);
             look_of_map(self, survey.as_deref(), viewpoint, options.thickness, apart)?
         } else {
             let view = self.view(viewpoint, options)?;
@@ -131,8 +140,7 @@ impl PointCloud {
         }
         let flip = flip.rescaled_for(&chosen);
         hull::mark_all(&chosen, &flip, hull)?;
-        pool.mark(hull.visible());
-        let corners = map.corners.min(CORNERS * chosen.len().max(FEW as usize));
+        let corners = map.corners.min(CORNERS * chosen.len().max(FEW));
         if is_look {
             let look = Look {
                 hull,
@@ -145,7 +153,6 @@ impl PointCloud {
         } else if let Some(reaches) = hull.reaches(corners)? {
             made.fill(&reaches, hull, &flip)?;
         }
-        *last = Some(made.clone());
         Ok(made)
     }
 

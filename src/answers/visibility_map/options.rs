@@ -6,8 +6,6 @@ use crate::view::resolved::{check_viewpoint, normalized};
 
 /// How many corners a map may have: their numbers are exact in single precision.
 const CORNERS: [f64; 2] = [64.0, 4_194_304.0];
-/// The number of points of a large cloud.
-const LARGE: usize = 2_000_000;
 
 /// The size of a [`VisibilityMap`](crate::VisibilityMap), and its directions.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,7 +26,7 @@ impl Default for MapOptions {
     fn default() -> Self {
         Self {
             points: 32_768,
-            corners: 65_536,
+            corners: 131_072,
             towards: None,
             origin: None,
         }
@@ -36,21 +34,6 @@ impl Default for MapOptions {
 }
 
 impl MapOptions {
-    /// The default for a cloud of `count` points: from two million on, more points and corners, since a
-    /// cold view takes that much longer.
-    #[must_use]
-    pub fn for_points(count: usize) -> Self {
-        let usual = Self::default();
-        if count < LARGE {
-            return usual;
-        }
-        Self {
-            points: 49_152,
-            corners: 131_072,
-            ..usual
-        }
-    }
-
     pub(super) fn check(&self) -> Result<(), Error> {
         in_range("points", self.points as f64, 16.0, MAX_POINTS as f64)?;
         in_range("corners", self.corners as f64, CORNERS[0], CORNERS[1])?;

@@ -1,31 +1,29 @@
-//! The points that a map is made of. A pool is sampled evenly once. For each map, points of the pool
-//! that the last map hid are left out, since they hide nothing.
+//! The points that a map is made of: of an even sample of the cloud, which is taken once, the nearest one
+//! in each cell of a grid of directions.
+//!
+//! Points behind others hide nothing. And a hull is as good everywhere as its faces are small, seen from the viewpoint: so
+//! points that are even in direction hide more than as many that are even on the surface.
 
 use alloc::vec::Vec;
 use glam::DVec3;
 
 use crate::answers::sample::even_places;
-use crate::answers::visibility_map::hides::VisibilityMap;
 use crate::answers::visibility_map::options::MapOptions;
-use crate::base::allocation::{OutOfMemory, filled, reserve};
-use crate::base::real::square_root;
+use crate::base::allocation::{OutOfMemory, filled, push, with_capacity};
+use crate::base::real::{larger, smaller, square_root};
 use crate::cloud::points::Points;
+use crate::hull::{Window, place};
 use crate::view::resolved::normalized;
 
 /// How many points a pool has for each point of a map: in all directions, and for a map towards some
 /// of them.
-const TIMES: [usize; 2] = [3, 12];
-/// A map takes one in so many of the points that are probably visible in the whole cloud, but at least
-/// `FEW`: more would cost much of what the exact answer costs. Looks cost more.
-const ONE_IN: u64 = 8;
-const ONE_IN_LOOKS: u64 = 2;
-pub(super) const FEW: u64 = 8192;
-/// One in so many points may always be chosen, so that no place is forgotten.
-const ALWAYS: usize = 16;
-/// A map tests one in so many points of the pool, each time others.
-const TURNS: usize = 4;
-/// If it newly hides more than this share of them, all are tested.
-const STALE: f64 = 0.1;
+const TIMES: [usize; 2] = [6, 12];
+/// One in so many points of the pool shows where the cloud is seen.
+const STEP: usize = 16;
+/// At most so many cells for each that points are in, so that a grid takes little memory.
+const MOST_EMPTY: f64 = 8.0;
+/// A map has at least so many points, if the pool has as many.
+pub(super) const FEW: usize = 8192;
 /// How much wider than the given cone the points are, as a share of the angle.
 const WIDER: f64 = 1.1;
 
@@ -37,13 +35,6 @@ pub(super) struct Pool {
     /// How many points the cloud has.
     all: usize,
     points: Points,
-    /// The points that were hidden when they were asked for last.
-    is_hidden: Vec<bool>,
-    /// The points of the last map.
-    chosen: Vec<u32>,
-    turn: usize,
-    /// How many points of the cloud a chosen one stands for.
-    stands_for: f64,
 }
 
 impl Pool {
@@ -62,102 +53,175 @@ impl Pool {
             Some(pool) => pool,
             None => {
                 let all = points.len();
-                let points = points.gathered(&even_places(all, size.min(all))?)?;
                 Self {
                     size,
                     is_smooth,
                     all,
-                    is_hidden: filled(points.len(), false)?,
-                    points,
-                    chosen: Vec::new(),
-                    turn: 0,
-                    stands_for: 1.0,
+                    points: points.gathered(&even_places(all, size.min(all))?)?,
                 }
             }
         };
         Ok(kept.insert(new))
     }
 
-    /// An even part of the points that may hide something.
+    /// The points that hide the most, and how many visible points of the cloud stand for each of them. They are one
+    /// in `one_in` of the visible ones, but at least `FEW`.
     pub(super) fn choose(
-        &mut self,
+        &self,
         viewpoint: [f64; 3],
         map: &MapOptions,
-        is_for_looks: bool,
-        last: Option<&VisibilityMap>,
-    ) -> Result<Points, OutOfMemory> {
+        one_in: f64,
+    ) -> Result<(Points, f64), OutOfMemory> {
         let cone = Cone::of(map);
         let viewpoint = DVec3::from_array(viewpoint);
-        let is_asked = |point: [f64; 3]| {
-            let seen = |cone: &Cone| cone.contains(DVec3::from_array(point) - viewpoint);
-            cone.as_ref().is_none_or(seen)
+        let seen = |point: [f64; 3]| {
+            let v = DVec3::from_array(point) - viewpoint;
+            let is_asked = cone.as_ref().is_none_or(|cone| cone.contains(v));
+            let squared = v.dot(v);
+            let (side, x, y, _) = place(v);
+            // Rounded alike, so that the order is the same everywhere.
+            let squared = squared as f32;
+            (is_asked && squared > 0.0 && squared < f32::INFINITY).then_some((
+                side,
+                [x, y],
+                squared,
+            ))
         };
-        if let Some(last) = last {
-            let (tested, new) = self.test(last, self.turn, TURNS, &is_asked);
-            if new as f64 > STALE * tested as f64 {
-                self.test(last, 0, 1, &is_asked);
+        let stands_for = self.all as f64 / self.points.len().max(1) as f64;
+        let mut is_chosen = filled(self.points.len(), false)?;
+        let mut visible = 0.0;
+        if self.points.len() > FEW {
+            let sample = Sample::of(self.points.iter().step_by(STEP).filter_map(seen))?;
+            visible = sample.near as f64 * STEP as f64 * stands_for;
+            let count = smaller(larger(visible / one_in, FEW as f64), map.points as f64);
+            let grid = Grid::new(&sample.extents, count * sample.empty);
+            let mut nearest = filled(grid.cells, (f32::INFINITY, 0))?;
+            for (number, point) in self.points.iter().enumerate() {
+                if let Some((side, at, squared)) = seen(point) {
+                    let nearest = &mut nearest[grid.cell(side, at)];
+                    if squared < nearest.0 {
+                        *nearest = (squared, number);
+                    }
+                }
             }
-            self.turn = (self.turn + 1) % TURNS;
-        }
-        self.chosen.clear();
-        reserve(&mut self.chosen, self.points.len())?;
-        for (place, &is_hidden) in self.is_hidden.iter().enumerate() {
-            if (!is_hidden || place % ALWAYS == 0) && is_asked(self.points.get(place)) {
-                self.chosen.push(place as u32);
+            for &(squared, number) in &nearest {
+                if squared < f32::INFINITY {
+                    is_chosen[number] = true;
+                }
+            }
+        } else {
+            for (is_chosen, point) in is_chosen.iter_mut().zip(self.points.iter()) {
+                *is_chosen = seen(point).is_some();
             }
         }
-        let count = self.chosen.len() as u64;
-        let visible = count * self.all as u64 / self.points.len().max(1) as u64;
-        let one_in = match cone {
-            None if is_for_looks => ONE_IN_LOOKS,
-            None => ONE_IN,
-            // Of some directions it takes all.
-            Some(_) => 1,
+        // In the order of the pool, which is one along a curve.
+        let count = is_chosen.iter().filter(|&&is_chosen| is_chosen).count();
+        let mut chosen = with_capacity(count)?;
+        chosen.extend(
+            (0..)
+                .zip(&is_chosen)
+                .filter_map(|(number, &is)| is.then_some(number)),
+        );
+        let stands_for = larger(visible / count.max(1) as f64, stands_for);
+        Ok((self.points.gathered(&chosen)?, stands_for))
+    }
+}
+
+/// What a few places of points show: the side of the cube, the place there, and the square of the distance.
+struct Sample {
+    extents: Extents,
+    /// How many of them are about as near as the nearest one beside them.
+    near: usize,
+    /// How many cells there are for each that points are in.
+    empty: f64,
+}
+
+impl Sample {
+    fn of(places: impl Iterator<Item = (usize, [f64; 2], f32)>) -> Result<Self, OutOfMemory> {
+        let mut all = Vec::new();
+        let mut extents = [[[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]]; 6];
+        for (side, at, squared) in places {
+            push(&mut all, (side, at, squared))?;
+            let [low, high] = &mut extents[side];
+            for axis in 0..2 {
+                low[axis] = smaller(low[axis], at[axis]);
+                high[axis] = larger(high[axis], at[axis]);
+            }
+        }
+        let grid = Grid::new(&extents, all.len() as f64 / 4.0);
+        let mut nearest = filled(grid.cells, f32::INFINITY)?;
+        for &(side, at, squared) in &all {
+            let nearest = &mut nearest[grid.cell(side, at)];
+            *nearest = nearest.min(squared);
+        }
+        let same = (1.0 + 4.0 / grid.cells_per_unit) as f32;
+        let is_near = |&&(side, at, squared): &&(usize, [f64; 2], f32)| {
+            squared < nearest[grid.cell(side, at)] * same
         };
-        let budget = (visible / one_in).max(FEW).min(map.points as u64);
-        if count > budget {
-            let mut number = 0;
-            self.chosen.retain(|_| {
-                let [before, after] = [number, number + 1].map(|n| n * budget / count);
-                number += 1;
-                before != after
-            });
-        }
-        self.stands_for = visible as f64 / self.chosen.len().max(1) as f64;
-        self.points.gathered(&self.chosen)
+        let near = all.iter().filter(is_near).count();
+        let used = nearest.iter().filter(|&&x| x < f32::INFINITY).count();
+        Ok(Self {
+            extents,
+            near,
+            empty: smaller(grid.cells as f64 / used.max(1) as f64, MOST_EMPTY),
+        })
     }
+}
 
-    /// Marks the points that this map hides: every `step`th one that is asked for. Returns how many
-    /// there were, and how many of them were not marked before.
-    fn test(
-        &mut self,
-        last: &VisibilityMap,
-        first: usize,
-        step: usize,
-        is_asked: &dyn Fn([f64; 3]) -> bool,
-    ) -> (usize, usize) {
-        let [mut tested, mut new] = [0; 2];
-        for place in (first..self.points.len()).step_by(step) {
-            let point = self.points.get(place);
-            if is_asked(point) {
-                let is_hidden = last.hides(point);
-                tested += 1;
-                new += usize::from(is_hidden && !self.is_hidden[place]);
-                self.is_hidden[place] = is_hidden;
+/// The low and the high ends of places on the six sides.
+type Extents = [[[f64; 2]; 2]; 6];
+
+/// Square cells on the sides of a cube around the viewpoint. Directions beyond a window belong to its outermost cells.
+struct Grid {
+    windows: [Window; 6],
+    cells_per_unit: f64,
+    cells: usize,
+}
+
+impl Grid {
+    /// About `count` cells.
+    fn new(extents: &Extents, count: f64) -> Self {
+        let sizes = extents.map(|[low, high]| [high[0] - low[0], high[1] - low[1]]);
+        let area: f64 = (sizes.iter().filter(|size| size[0] >= 0.0))
+            .map(|size| size[0] * size[1])
+            .sum();
+        // At most two cells for each that is asked, also along a line.
+        let longest = (sizes.iter().flatten()).fold(0.0, |most, &size| larger(most, size));
+        let cells_per_unit = smaller(
+            square_root(count / larger(area, 1e-30)),
+            count / larger(longest, 1e-30),
+        );
+        let mut grid = Self {
+            windows: Default::default(),
+            cells_per_unit,
+            cells: 0,
+        };
+        for ((window, size), [low, _]) in grid.windows.iter_mut().zip(sizes).zip(extents) {
+            if size[0] >= 0.0 {
+                *window = Window {
+                    x: low[0],
+                    y: low[1],
+                    columns: (size[0] * cells_per_unit) as usize + 1,
+                    rows: (size[1] * cells_per_unit) as usize + 1,
+                    first: grid.cells,
+                };
+                grid.cells += window.columns * window.rows;
             }
         }
-        (tested, new)
+        grid.cells += 1;
+        grid
     }
 
-    pub(super) fn stands_for(&self) -> f64 {
-        self.stands_for
-    }
-
-    /// Marks the chosen points that their own hull hides.
-    pub(super) fn mark(&mut self, visible: &[bool]) {
-        for (&place, visible) in self.chosen.iter().zip(visible) {
-            self.is_hidden[place as usize] = !visible;
+    #[inline]
+    fn cell(&self, side: usize, [x, y]: [f64; 2]) -> usize {
+        let window = &self.windows[side];
+        // A side that the sample does not reach has one cell, the last one.
+        if window.columns == 0 {
+            return self.cells - 1;
         }
+        let column = ((x - window.x) * self.cells_per_unit) as usize;
+        let row = ((y - window.y) * self.cells_per_unit) as usize;
+        window.first + row.min(window.rows - 1) * window.columns + column.min(window.columns - 1)
     }
 }
 

@@ -16,9 +16,9 @@ export interface Cone {
  * How a map of directions is made. `draft`, `scores`, `vote` and a radius that is searched are refused.
  */
 export interface VisibilityMapOptions extends VisibilityOptions {
-  /** How many points the map's hull has at most: an integer of at least 16. Default 32,768; 49,152 for 2 million points or more. */
+  /** How many points the map's hull has at most: an integer of at least 16. Default 32,768. */
   points?: number | undefined;
-  /** How many directions the map has at most: an integer from 64 to 4,194,304. Default 65,536, or 131,072. */
+  /** How many directions the map has at most: an integer from 64 to 4,194,304. Default 131,072. */
   corners?: number | undefined;
   /** The only directions that get points and corners: those of a camera, or a cone. Default: all. */
   towards?: Camera | Cone | undefined;

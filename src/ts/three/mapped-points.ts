@@ -16,7 +16,7 @@ import { MapMaterial, type MapPatch, type PatchMaterial } from "./map-material.j
 
 const WIDTH = 256;
 /** Rows for a map of the default number of corners. */
-const ROWS = 258;
+const ROWS = 514;
 const IDENTITY = new Matrix4();
 
 /** The texture of a map. Filters of nodes share one. */
