@@ -1,18 +1,8 @@
 // The adapter for three.js in a browser: the points on the screen, and the points that a ray meets.
-import type { Browser, Page } from "playwright-core";
+import type { Page } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
+import { browser } from "./browser.js";
 import { serveModules } from "./modules.js";
-import { launchBrowser } from "./site.js";
-
-let browser: Browser;
-
-beforeAll(async () => {
-  browser = await launchBrowser();
-});
-
-afterAll(async () => {
-  await browser.close();
-});
 
 type Three = typeof import("three");
 type Renderer = new (options: object) => InstanceType<Three["WebGLRenderer"]> & { init?: () => Promise<void> };

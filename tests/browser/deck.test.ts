@@ -1,24 +1,21 @@
 // The layer for deck.gl: its filter values, and the points that are drawn and picked.
-import type { Browser, Page } from "playwright-core";
+import type { Page } from "playwright-core";
 import { afterAll, beforeAll, beforeEach, expect, it } from "vitest";
+import { browser } from "./browser.js";
 import { builtPage } from "./built.js";
 import type { DeckPage } from "./deck/page.js";
 import { serveModules } from "./modules.js";
-import { launchBrowser } from "./site.js";
 
-let browser: Browser;
 let site: Awaited<ReturnType<typeof serveModules>>;
 let path: string;
 let page: Page;
 
 beforeAll(async () => {
   path = await builtPage("deck");
-  browser = await launchBrowser();
   site = await serveModules({});
 });
 
-afterAll(async () => {
-  await browser.close();
+afterAll(() => {
   site.close();
 });
 

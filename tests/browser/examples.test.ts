@@ -1,23 +1,21 @@
 // The examples that are pages print the lines in their comments. All but the plain one are bundled like users do.
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
-import type { Browser } from "playwright-core";
 import { build } from "vite";
 import { afterAll, beforeAll, expect, it, vi } from "vitest";
 
 import { promised, root } from "../package/snippets.js";
+import { browser } from "./browser.js";
 import { serveModules } from "./modules.js";
-import { launchBrowser } from "./site.js";
 
 const folder = join(root, "examples");
 const OUT = "target/tests/examples";
 const BUNDLED = ["three", "react", "deck"];
 
-let browser: Browser;
 let site: Awaited<ReturnType<typeof serveModules>>;
 
 beforeAll(async () => {
-  [browser, site] = await Promise.all([launchBrowser(), serveModules({})]);
+  site = await serveModules({});
   await build({
     root: folder,
     configFile: false,
@@ -34,8 +32,7 @@ beforeAll(async () => {
   });
 });
 
-afterAll(async () => {
-  await browser.close();
+afterAll(() => {
   site.close();
 });
 

@@ -3,7 +3,8 @@ import { join } from "node:path";
 import { gzipSync } from "node:zlib";
 import { expect, test } from "vitest";
 import { root } from "../root.js";
-import { browser, openPage, PHONE, reached, site, upToDate } from "./support.js";
+import { browser } from "./browser.js";
+import { openPage, PHONE, reached, site, upToDate } from "./support.js";
 
 /** A sample that is downloaded, and small. */
 const SMALL = "?sample=bunny";

@@ -1,18 +1,16 @@
-import type { Browser, Page } from "playwright-core";
+import type { Page } from "playwright-core";
 import { afterAll, beforeAll, expect } from "vitest";
+import { browser } from "./browser.js";
 import { serveModules } from "./modules.js";
-import { launchBrowser } from "./site.js";
 
-/** A page with these modules for all tests of a file, with WebGPU where the browser has it. None may log an error. */
+/** A page with these modules for all tests of a file. None may log an error. */
 export function modulesPage(imports: Record<string, string>): { page: Page; said: string[] } {
-  let browser: Browser;
   let close: () => void;
   const errors: string[] = [];
   // The page comes before the first test.
   const shared = { page: undefined as unknown as Page, said: [] as string[] };
 
   beforeAll(async () => {
-    browser = await launchBrowser("--enable-unsafe-webgpu", "--use-webgpu-adapter=swiftshader");
     const site = await serveModules(imports);
     close = site.close;
     shared.page = await browser.newPage({ viewport: { width: 400, height: 400 } });
@@ -25,8 +23,7 @@ export function modulesPage(imports: Record<string, string>): { page: Page; said
     await shared.page.waitForFunction(() => "modules" in globalThis);
   });
 
-  afterAll(async () => {
-    await browser.close();
+  afterAll(() => {
     close();
     expect(errors).toEqual([]);
   });

@@ -3,9 +3,10 @@ import { join } from "node:path";
 import type { BrowserContext, Page } from "playwright-core";
 import { afterEach, beforeEach, expect, test } from "vitest";
 import { root } from "../root.js";
+import { browser } from "./browser.js";
 import { asciiPly, ball } from "./clouds.js";
 import { servePage, type Site } from "./site.js";
-import { answered, browser, reached, status, upToDate } from "./support.js";
+import { answered, reached, status, upToDate } from "./support.js";
 
 const DIST = join(root, "www", "dist");
 let extra: Map<string, Buffer>;

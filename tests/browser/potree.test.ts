@@ -2,11 +2,10 @@
 // viewer of its own with the parts that the filter uses, which draws as Potree does: with WebGL 1, and without an index.
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
-import type { Browser, Page } from "playwright-core";
+import type { Page } from "playwright-core";
 import { afterAll, beforeAll, expect, it } from "vitest";
-import { launchBrowser } from "./site.js";
+import { browser } from "./browser.js";
 
-let browser: Browser;
 let page: Page;
 const errors: string[] = [];
 
@@ -40,15 +39,13 @@ declare const frame: () => Promise<void>;
 const SCRIPT = readFileSync(join(import.meta.dirname, "../../dist/hidden-point-removal.global.js"), "utf8");
 
 beforeAll(async () => {
-  browser = await launchBrowser();
   page = await browser.newPage({ viewport: { width: 300, height: 300 } });
   page.on("pageerror", (error) => errors.push(String(error)));
   await page.setContent(`<canvas width="300" height="300"></canvas><script>${SCRIPT}</script>`);
   await page.addScriptTag({ path: join(import.meta.dirname, "potree/viewer.js") });
 });
 
-afterAll(async () => {
-  await browser.close();
+afterAll(() => {
   expect(errors).toEqual([]);
 });
 

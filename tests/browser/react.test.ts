@@ -1,12 +1,11 @@
 // The hook and the component for React, in a canvas that draws on demand.
-import type { Browser, Page } from "playwright-core";
+import type { Page } from "playwright-core";
 import { afterAll, beforeAll, beforeEach, expect, it } from "vitest";
+import { browser } from "./browser.js";
 import { builtPage } from "./built.js";
 import { serveModules } from "./modules.js";
 import type { App } from "./react/page.js";
-import { launchBrowser } from "./site.js";
 
-let browser: Browser;
 let site: Awaited<ReturnType<typeof serveModules>>;
 let path: string;
 let page: Page;
@@ -14,12 +13,10 @@ let failures: string[];
 
 beforeAll(async () => {
   path = await builtPage("react");
-  browser = await launchBrowser();
   site = await serveModules({});
 });
 
-afterAll(async () => {
-  await browser.close();
+afterAll(() => {
   site.close();
 });
 

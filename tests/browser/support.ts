@@ -3,22 +3,22 @@ import { createRequire } from "node:module";
 import { join } from "node:path";
 import { gunzipSync } from "node:zlib";
 import { init, PointCloud, type VisibilityOptions } from "hidden-point-removal";
-import type { Browser, BrowserContextOptions, Page } from "playwright-core";
-import { afterAll, afterEach, beforeAll, expect } from "vitest";
+import type { BrowserContextOptions, Page } from "playwright-core";
+import { expect } from "vitest";
 import { root } from "../root.js";
-import { launchBrowser, servePage, type Site } from "./site.js";
+import { browser } from "./browser.js";
+import { servePage } from "./site.js";
 
 /** A phone, but with a quarter of its pixels: software draws them. */
 export const PHONE = { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true, deviceScaleFactor: 1 };
 
 const require = createRequire(import.meta.url);
-export let site: Site;
-export let browser: Browser;
 let errors: string[] = [];
 let provoked: RegExp[] = [];
 const pages: Page[] = [];
-/** Files of the site besides the page, by name. */
+/** Files of the site besides the page, by name. Each test file begins without any. */
 export const served = new Map<string, Uint8Array>();
+export const site = await servePage(served);
 
 /** Lets the first sample of the page have 5,205 points. It is for tests about other things than its size. */
 export function serveSmallDragon(): void {
@@ -33,22 +33,13 @@ export async function addressWritten(page: Page): Promise<URLSearchParams> {
   return new URL(page.url()).searchParams;
 }
 
-beforeAll(async () => {
-  site = await servePage(served);
-  browser = await launchBrowser();
-});
-
-afterAll(async () => {
-  await browser.close();
-  site.close();
-});
-
-afterEach(async () => {
+/** Closes the pages of a test. None of them may have logged an error. */
+export async function closePages(): Promise<void> {
   await Promise.all(pages.splice(0).map((page) => page.context().close()));
   const seen = errors.filter((error) => !provoked.some((pattern) => pattern.test(error)));
   [errors, provoked] = [[], []];
   expect(seen, "errors in the browser's console").toEqual([]);
-});
+}
 
 /** For tests that compare single pixels of a screenshot. */
 export const EVERY_PIXEL: BrowserContextOptions = { deviceScaleFactor: 1 };

@@ -1,10 +1,10 @@
 // Published viewers of tiles. Through the filter they must draw the same points as one cloud.
-import type { Browser, Page } from "playwright-core";
+import type { Page } from "playwright-core";
 import type { BufferAttribute, Object3D, Points } from "three";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 
+import { browser } from "./browser.js";
 import { serveModules } from "./modules.js";
-import { launchBrowser } from "./site.js";
 import { cloud, type Files, potreeFiles, tilesFiles } from "./tiles.js";
 
 interface Modules {
@@ -24,16 +24,13 @@ const MODULES = {
   "3d-tiles-renderer/three": "/node_modules/3d-tiles-renderer/build/index.three.js",
 };
 
-let browser: Browser;
 let site: Awaited<ReturnType<typeof serveModules>>;
 
 beforeAll(async () => {
-  browser = await launchBrowser();
   site = await serveModules(MODULES);
 });
 
-afterAll(async () => {
-  await browser.close();
+afterAll(() => {
   site.close();
 });
 
