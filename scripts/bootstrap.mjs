@@ -42,7 +42,7 @@ function installPackages() {
 }
 
 function compileScripts() {
-  const tsc = join(root, "node_modules", "typescript", "bin", "tsc");
+  const tsc = join(root, "node_modules", "typescript-native", "bin", "tsc");
   const done = run(process.execPath, [tsc, "-p", scripts]);
   if (!done) fail("The scripts do not compile.");
   mkdirSync(compiled, { recursive: true });

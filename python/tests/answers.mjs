@@ -36,8 +36,9 @@ function answer({ file, precision, call, arguments: given }) {
     if ("offsets" in result) return digest(result.offsets, result.cameras, result.pixels, result.towards);
     if ("values" in result) return digest(result.values, result.seen);
     if ("uniforms" in result) return digest(result.data, Float64Array.from(Object.values(result.uniforms).flat()));
-    if ("gains" in result)
+    if ("gains" in result) {
       return digest(Float64Array.of(...result.chosen, ...result.gains), result.seen, result.unseen);
+    }
     const numbers = new Float64Array([result.radius, result.exponent]);
     return digest(result.indices, numbers, result.scores ?? new Float32Array(), result.triangles ?? new Uint32Array());
   } finally {

@@ -1,6 +1,6 @@
 import { copyFileSync, mkdirSync, rmSync, writeFileSync } from "node:fs";
 
-import { inRoot } from "../lib/paths.js";
+import { inRoot, TSC } from "../lib/paths.js";
 import { mustRun, say } from "../lib/run.js";
 import { unlessUnchanged } from "../lib/stamp.js";
 import { E57 } from "./e57.js";
@@ -30,7 +30,7 @@ export async function buildPackage(): Promise<void> {
     rmSync(inRoot("dist"), { recursive: true, force: true });
     embedWasm();
     const worker = await embedWorker();
-    await mustRun("tsc", ["-p", "tsconfig.build.json"], "The npm package does not compile");
+    await mustRun(process.execPath, [TSC, "-p", "tsconfig.build.json"], "The npm package does not compile");
     for (const folder of Object.keys(MODULES)) mkdirSync(inRoot("dist", folder), { recursive: true });
     for (const file of GENERATED) copyFileSync(inRoot("src/ts", file), inRoot("dist", file));
     writeFileSync(inRoot("dist/worker-thread.js"), worker);

@@ -7,7 +7,7 @@ export const PARTS = {
   page: "the demo page and the adapters that draw, in Chromium",
   python: "the Python package",
   types: "the TypeScript of package, page, tests and scripts",
-  lint: "clippy and eslint",
+  lint: "clippy and oxlint",
   format: "rustfmt and prettier",
   docs: "rustdoc and typedoc",
   packaging: "the crate and the npm package as they would be published, and users' projects",

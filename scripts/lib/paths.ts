@@ -10,6 +10,9 @@ export function inRoot(...parts: string[]): string {
   return join(root, ...parts);
 }
 
+/** TypeScript's native compiler. Only typedoc needs the other one, for its interface. */
+export const TSC = inRoot("node_modules/typescript-native/bin/tsc");
+
 /**
  * The environment of every command. rustup's directory comes last on the PATH, for shells that were opened before
  * rustup was installed.

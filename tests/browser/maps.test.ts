@@ -420,7 +420,7 @@ describe("a filter", () => {
           "gl_FragColor = vec4(0, 1, 0, 1);",
         );
       };
-      // eslint-disable-next-line @typescript-eslint/unbound-method -- only compared
+      // oxlint-disable-next-line typescript/unbound-method -- only compared
       const given = patched.onBeforeCompile;
       const late = new THREE.PointsMaterial(flat);
       const raw = new THREE.RawShaderMaterial({

@@ -236,7 +236,7 @@ test("a label is measured once, however often the camera moves", async () => {
   await page.evaluate(() => {
     const counted = globalThis as unknown as { measured: number };
     counted.measured = 0;
-    // eslint-disable-next-line @typescript-eslint/unbound-method
+    // oxlint-disable-next-line typescript/unbound-method
     const measure = SVGTextContentElement.prototype.getSubStringLength;
     SVGTextContentElement.prototype.getSubStringLength = function (from, count) {
       counted.measured++;

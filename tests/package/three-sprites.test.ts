@@ -31,7 +31,6 @@ it("a sprite with a count shows the visible points, and later those of another p
   const seen = new THREE.InstancedBufferAttribute(positions.slice(), 3);
   const material = new THREE.SpriteNodeMaterial();
   material.positionNode = instancedDynamicBufferAttribute(seen);
-  // eslint-disable-next-line @typescript-eslint/no-unsafe-class-instance-assignment -- three draws node materials, too
   const sprites = new THREE.Sprite(material);
   filter.addEventListener("change", () => {
     filter.visible.forEach((index, i) => seen.set(positions.subarray(3 * index, 3 * index + 3), 3 * i));

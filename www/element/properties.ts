@@ -49,7 +49,7 @@ function radius(element: Element): unknown {
 
 /** Any value as text: the attribute's own check refuses a text that cannot be used. */
 function textOf(given: unknown): string | null {
-  // eslint-disable-next-line @typescript-eslint/no-base-to-string
+  // oxlint-disable-next-line typescript/no-base-to-string
   return given === null || given === undefined ? null : String(given);
 }
 
@@ -67,7 +67,7 @@ export function adoptEarly(element: Element): void {
   for (const name of ATTRIBUTE_NAMES.map(propertyOf)) {
     const descriptor = Object.getOwnPropertyDescriptor(element, name);
     if (!descriptor) continue;
-    // eslint-disable-next-line @typescript-eslint/no-dynamic-delete
+    // oxlint-disable-next-line typescript/no-dynamic-delete
     delete (element as unknown as Record<string, unknown>)[name];
     (element as unknown as Record<string, unknown>)[name] = descriptor.value;
   }

@@ -137,7 +137,7 @@ async function writeInto(place: string, parts: Iterable<Uint8Array>, isFifo: boo
   const probe = isFifo ? await open(place, constants.O_WRONLY | nonBlocking()).catch(noReader) : undefined;
   try {
     const handle = await open(place, constants.O_WRONLY);
-    await writeAll(handle, parts).finally(() => handle.close());
+    await writeAll(handle, parts);
   } finally {
     await probe?.close();
   }
@@ -155,7 +155,7 @@ async function replace(place: string, parts: Iterable<Uint8Array>, mode: number 
   try {
     const handle = await open(unfinished, "wx", mode);
     try {
-      await writeAll(handle, parts).finally(() => handle.close());
+      await writeAll(handle, parts);
       await rename(unfinished, place);
     } catch (error) {
       await rm(unfinished, { force: true });
@@ -204,8 +204,13 @@ async function writeOpen(file: number, parts: Iterable<Uint8Array>): Promise<voi
   }
 }
 
+/** Also closes the file. */
 async function writeAll(handle: FileHandle, parts: Iterable<Uint8Array>): Promise<void> {
-  for (const chunk of gathered(parts)) await handle.writeFile(chunk);
+  try {
+    for (const chunk of gathered(parts)) await handle.writeFile(chunk);
+  } finally {
+    await handle.close();
+  }
 }
 
 /** Joins small pieces into few large ones. */

@@ -169,7 +169,7 @@ export class PotreeDrawing implements NodesDrawing<Tile> {
 
   #hook(): () => void {
     const renderer = this.#renderer;
-    // eslint-disable-next-line @typescript-eslint/unbound-method -- called with the renderer
+    // oxlint-disable-next-line typescript/unbound-method -- called with the renderer
     const { renderOctree, renderNodes } = renderer;
     const octree: PotreeRenderer["renderOctree"] = (cloud, nodes, camera, target, params = {}) => {
       const material = params.material ?? cloud.material;

@@ -5,7 +5,7 @@ import type { DrawnPoints } from "./drawn-points.js";
 import { MappedPoints, type MapTexture } from "./mapped-points.js";
 import type { FilterSettings } from "./options.js";
 import { DIMMED, type Shades } from "./shades.js";
-import { type ColorAttribute, SoftColors } from "./soft-colors.js";
+import { SoftColors } from "./soft-colors.js";
 
 const dimmed = new WeakSet<Points>();
 
@@ -182,7 +182,7 @@ export class DimmedPoints {
       return attributes;
     }
     const { vertexColors } = this.#points.material as PointsMaterial;
-    const source = vertexColors ? (attributes["color"] as ColorAttribute | undefined) : undefined;
+    const source = vertexColors ? attributes["color"] : undefined;
     return { ...attributes, color: this.#colors.of(this.#shades, source) };
   }
 }

@@ -319,7 +319,7 @@ function drawnIds(
 
 /** Refuses values that three itself could not draw, although it would report no error. */
 function requireDrawable(index: unknown, range: unknown): void {
-  if (index !== null && typeof (index as Partial<BufferAttribute> | undefined)?.getX !== "function") {
+  if (index !== null && typeof ((index ?? {}) as { getX?: unknown }).getX !== "function") {
     throw new HprError("option", `points: index must be a THREE.BufferAttribute or null, got ${describe(index)}`);
   }
   const { start, count } = (range ?? {}) as { start?: unknown; count?: unknown };

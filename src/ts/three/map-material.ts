@@ -100,7 +100,7 @@ export class MapMaterial implements MapPatch {
     const material = this.#material;
     const owns = (name: string) => Object.prototype.hasOwnProperty.call(material, name);
     const [hadCompile, hadKey] = [owns("onBeforeCompile"), owns("customProgramCacheKey")];
-    // eslint-disable-next-line @typescript-eslint/unbound-method -- called with the material
+    // oxlint-disable-next-line typescript/unbound-method -- called with the material
     const { onBeforeCompile, customProgramCacheKey } = material;
     const compile = (shader: Shader, renderer: WebGLRenderer) => {
       onBeforeCompile.call(material, shader, renderer);

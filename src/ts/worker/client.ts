@@ -114,7 +114,7 @@ export type PromisedQuestions = {
 };
 
 // The class has these methods from the table of methods.
-// eslint-disable-next-line @typescript-eslint/no-empty-object-type, @typescript-eslint/no-unsafe-declaration-merging
+// oxlint-disable-next-line typescript/no-empty-object-type, typescript/no-unsafe-declaration-merging
 export interface WorkerPointCloud extends PromisedQuestions {}
 
 /**
@@ -127,7 +127,6 @@ export interface WorkerPointCloud extends PromisedQuestions {}
  * 20 seconds in which the page runs, it is replaced once and asked again; if its successor is silent, too, or
  * if the positions were given away (`transfer`), the calls are rejected with `internal`.
  */
-// eslint-disable-next-line @typescript-eslint/no-unsafe-declaration-merging
 export class WorkerPointCloud {
   /** The same as {@link WorkerPointCloud.dispose}, on platforms that have `Symbol.dispose`. */
   declare readonly [Symbol.dispose]: () => void;
