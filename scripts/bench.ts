@@ -3,7 +3,6 @@ import { build } from "./build/build.js";
 import { command } from "./lib/command.js";
 import { runCompiled } from "./lib/compiled.js";
 import { mustRun } from "./lib/run.js";
-import { findBrowser } from "./setup/browser.js";
 import { setUpForBuild } from "./setup/setup.js";
 
 await command(async () => {
@@ -11,6 +10,5 @@ await command(async () => {
   await build();
   const what = ["--package", "hpr-tests", "--bin", "bench_native"];
   await mustRun("cargo", ["build", "--locked", "--release", ...what], "The native benchmark does not build");
-  const browser = findBrowser();
-  await runCompiled("bench", browser === undefined ? {} : { HPR_CHROMIUM: browser });
+  await runCompiled("bench", {});
 });

@@ -11,7 +11,6 @@ import { describeMachine } from "./machine.js";
 import { timeMaps } from "./maps.js";
 import { readOctrees } from "./octrees.js";
 import { type BenchOptions, readOptions, type Section, USAGE } from "./options.js";
-import { timePage } from "./page.js";
 import { peers } from "./peers.js";
 import { markdown, type Table } from "./report.js";
 import { timeSectors } from "./sectors.js";
@@ -30,7 +29,6 @@ const sections: Record<Section, () => Table[] | Promise<Table[]>> = {
   workers: async () => [await timeWorkers()],
   sectors: () => [timeSectors()],
   octrees: async () => [await readOctrees()],
-  page: async () => [await timePage()],
 };
 const tables: Table[] = [];
 for (const section of options.sections) tables.push(...(await sections[section]()));

@@ -1,4 +1,4 @@
-// The queries of one engine, and how they are timed, in Node and in a page. native.rs does
+// The queries of one engine, and how they are timed, in Node. native.rs does
 // the same for the native build.
 import { init, PointCloud } from "hidden-point-removal";
 

@@ -13,10 +13,6 @@ use std::time::Instant;
 
 use hidden_point_removal::{Options, PointCloud, Position, Sector, Visibility};
 
-#[expect(dead_code, reason = "the tasks name the viewpoints")]
-mod raw;
-use raw::points;
-
 fn main() {
     let args: Vec<String> = std::env::args().skip(1).collect();
     let (file, precision, divided) = match args.as_slice() {
@@ -30,6 +26,14 @@ fn main() {
         "f64" => answer_all(&points(&bytes, f64::from_le_bytes), divided),
         _ => panic!("the precision is f32 or f64"),
     }
+}
+
+/// The points of a file.
+fn points<T: Copy, const SIZE: usize>(bytes: &[u8], read: fn([u8; SIZE]) -> T) -> Vec<[T; 3]> {
+    let at = |i: usize| read(core::array::from_fn(|byte| bytes[i * SIZE + byte]));
+    (0..bytes.len() / (3 * SIZE))
+        .map(|p| core::array::from_fn(|axis| at(3 * p + axis)))
+        .collect()
 }
 
 fn answer_all<P: Position>(positions: &[P], divided: bool) {

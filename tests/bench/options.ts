@@ -12,7 +12,6 @@ WHAT, by default --speed, --drafts and --workers:
   --workers    two workers against one, on a million points
   --sectors    the sectors of a view, one after another: what several cores would gain
   --octrees    the share of an octree that a view reads
-  --page       the built demo page in Chromium while it is orbited
   --all        all of it, and --peers
 
   --clouds     only these of --speed's clouds:
@@ -20,7 +19,7 @@ WHAT, by default --speed, --drafts and --workers:
   --peers      also SciPy (Qhull), installed into target/ (needs Python 3 with pip)
   --json       prints JSON instead of tables`;
 
-const SECTIONS = ["speed", "drafts", "maps", "workers", "sectors", "octrees", "page"] as const;
+const SECTIONS = ["speed", "drafts", "maps", "workers", "sectors", "octrees"] as const;
 export type Section = (typeof SECTIONS)[number];
 
 export interface BenchOptions {

@@ -32,11 +32,6 @@ function format(value: string | number): string {
 }
 
 export function median(values: number[]): number {
-  return quantile(values, 0.5);
-}
-
-/** The value below which this share of the numbers lies. */
-export function quantile(values: number[], share: number): number {
   const sorted = values.toSorted((a, b) => a - b);
-  return sorted[Math.min(sorted.length - 1, Math.floor(share * sorted.length))] ?? NaN;
+  return sorted[Math.floor(sorted.length / 2)] ?? NaN;
 }
