@@ -134,52 +134,27 @@ fn exact_determinant(a: [f64; 3], b: [f64; 3], c: [f64; 3]) -> Sign {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::base::random::Random;
 
-    /// A small deterministic generator (splitmix64).
-    struct Random(u64);
-
-    impl Random {
-        fn next(&mut self) -> u64 {
-            self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-            let mut z = self.0;
-            z = (z ^ z >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-            z = (z ^ z >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
-            z ^ z >> 31
-        }
-
-        /// Small integers and numbers very close to them, so that signs are often in doubt.
-        fn coordinate(&mut self) -> f64 {
-            let whole = (self.next() % 7) as f64 - 3.0;
-            match self.next() % 16 {
+    /// Small integers and numbers very close to them, so that signs are often in doubt.
+    fn point(random: &mut Random) -> DVec3 {
+        DVec3::from_array(core::array::from_fn(|_| {
+            let whole = random.below(7) as f64 - 3.0;
+            match random.below(16) {
                 0 => whole * 0.1,
                 1 => whole * (1.0 + f64::EPSILON),
                 _ => whole,
             }
-        }
-
-        fn point(&mut self) -> DVec3 {
-            DVec3::from_array(core::array::from_fn(|_| self.coordinate()))
-        }
-    }
-
-    #[test]
-    fn signs_have_the_documented_sides() {
-        let (x, y, z) = (DVec3::X, DVec3::Y, DVec3::Z);
-        assert_eq!(side_of_origin(x, y, z), Sign::Positive);
-        assert_eq!(side_of_origin(x, y, x + y), Sign::Zero);
-        assert_eq!(side_of_face(x, y, z, DVec3::ONE), Sign::Positive);
-        assert_eq!(side_of_face(x, y, z, DVec3::ZERO), Sign::Negative);
-        assert_eq!(side_of_face(x, y, z, x), Sign::Zero);
-        assert_eq!(orient2d([0.0, 0.0], [1.0, 0.0], [0.0, 1.0]), Sign::Positive);
+        }))
     }
 
     /// Shewchuk's adaptive predicates (crate `robust`) say the same.
     #[test]
     fn signs_are_those_of_expansions() {
-        let mut random = Random(7);
+        let mut random = Random::new(7);
         let mut zeros = 0;
         for _ in 0..20_000 {
-            let [a, b, c, q] = core::array::from_fn(|_| random.point());
+            let [a, b, c, q] = core::array::from_fn(|_| point(&mut random));
             let coord = |p: DVec3| robust::Coord3D {
                 x: p.x,
                 y: p.y,
@@ -205,11 +180,11 @@ mod tests {
     /// Points nearly in one line. Without a bound of the error, rounding gives wrong signs.
     #[test]
     fn signs_of_nearly_collinear_points_are_exact_at_every_scale() {
-        let mut random = Random(3);
+        let mut random = Random::new(3);
         for scale in [1.0, 2.0f64.powi(-60), 2.0f64.powi(60)] {
             for round in 0..3_000 {
                 let [a, b, c] = core::array::from_fn(|_| {
-                    let times = (1 + random.next() % 99) as f64 * scale;
+                    let times = (1 + random.below(99)) as f64 * scale;
                     DVec3::new(0.1 * times, 0.3 * times, 0.0)
                 });
                 let row = |p: DVec3| [p.x, p.y, 1.0];
@@ -217,8 +192,8 @@ mod tests {
                 let flat = |p: DVec3| [p.x, p.y];
                 assert_eq!(orient2d(flat(a), flat(b), flat(c)), turn, "{a} {b} {c}");
                 // The product of c.z is mostly a rounding error. The product of b.z is as small.
-                let tiny = scale * 2.0f64.powi(-50 - (random.next() % 8) as i32);
-                let b_z = if random.next() % 2 == 0 { tiny } else { -tiny };
+                let tiny = scale * 2.0f64.powi(-50 - (random.below(8)) as i32);
+                let b_z = if random.below(2) == 0 { tiny } else { -tiny };
                 let mut points = [a, DVec3::new(b.x, b.y, b_z), DVec3::new(c.y, -c.x, scale)];
                 points.rotate_left(round % 3);
                 let side = exact_determinant(
@@ -235,11 +210,11 @@ mod tests {
     /// At the moderate scales the rounded determinant decides wherever it can.
     #[test]
     fn scales_keep_the_sign() {
-        let mut random = Random(11);
+        let mut random = Random::new(11);
         for exponent in [-1000, -400, -150, -60, 60, 150, 900] {
             let scale = 2.0f64.powi(exponent);
             for _ in 0..2_000 {
-                let [a, b, c, q] = core::array::from_fn(|_| random.point());
+                let [a, b, c, q] = core::array::from_fn(|_| point(&mut random));
                 let signs = |[a, b, c, q]: [DVec3; 4]| {
                     let flat = |p: DVec3| [p.x, p.y];
                     let turn = orient2d(flat(a), flat(b), flat(c));

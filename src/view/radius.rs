@@ -175,17 +175,3 @@ pub(crate) fn from_radius(radius: f64, farthest: f64) -> ChosenRadius {
         evaluations: 0,
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn two_points_are_enough_for_an_automatic_radius() {
-        assert_eq!(closed_form(1, 4.0, 0.01, 2.0), 2.0);
-        assert_eq!(closed_form(2, 4.0, 0.0, 2.0), 2.0);
-        assert_eq!(closed_form(2, 4.0, 0.01, 0.0), 0.0);
-        let radius = 0.4 * f64::powf(2.0, 0.25) * 4.0 / 0.01;
-        assert!((closed_form(2, 4.0, 0.01, 2.0) / radius - 1.0).abs() < 1e-12);
-    }
-}

@@ -161,41 +161,6 @@ mod tests {
     }
 
     #[test]
-    fn the_cut_is_across_the_widest_spread_and_halves_the_work() {
-        for axis in 0..3 {
-            // Far from the middle, so that sums matter.
-            let mut items = items(axis, 3);
-            items
-                .iter_mut()
-                .for_each(|item| item.direction += DVec3::new(0.3, -0.2, 0.1));
-            let [low, high] = cells(&items, 2)[..] else {
-                panic!("two cells");
-            };
-            for other in 0..3 {
-                assert_eq!(low.high[other].is_finite(), other == axis);
-                assert_eq!(low.low[other], f64::NEG_INFINITY);
-            }
-            assert_eq!(low.high[axis], high.low[axis]);
-        }
-    }
-
-    #[test]
-    fn work_decides_which_axis_is_the_widest() {
-        let item = |direction, work| Item { direction, work };
-        let pair = |direction, work| [item(direction, work), item(-direction, work)];
-        let items = [pair(0.5 * DVec3::X, 1), pair(0.3 * DVec3::Y, 9)].concat();
-        assert_eq!(widest_axis(&items), 1);
-        let items = [pair(0.5 * DVec3::X, 9), pair(0.3 * DVec3::Z, 1)].concat();
-        assert_eq!(widest_axis(&items), 0);
-        let items = [pair(0.3 * DVec3::Z, 9), pair(0.5 * DVec3::Y, 1)].concat();
-        assert_eq!(widest_axis(&items), 2);
-        // The spread is about the mean, which is far from the middle here.
-        let near = |x, y| item(DVec3::new(x, y, 0.0), 1);
-        assert_eq!(widest_axis(&[near(0.9, 0.05), near(0.5, -0.05)]), 0);
-        assert_eq!(widest_axis(&[near(0.9, 0.2), near(0.8, -0.2)]), 1);
-    }
-
-    #[test]
     fn cells_hold_each_direction_once_and_about_the_same_work() {
         for count in [1, 2, 3, 5, 8] {
             let items = items(count as usize % 3, u64::from(count));

@@ -1,5 +1,4 @@
-//! Small views divided among sectors. The sectors' answers together are compared with the answer of
-//! one hull.
+//! Rings of faces that no far point sees. The check `sectors` compares answers of sectors with those of one hull.
 
 use alloc::vec::Vec;
 use glam::DVec3;
@@ -12,8 +11,8 @@ use crate::flip::inversion::Flip;
 use crate::flip::kernel::Kernel;
 use crate::hull::division::Sector;
 use crate::hull::incremental::ORIGIN;
+use crate::hull::outer_boundary;
 use crate::hull::predicates::Sign;
-use crate::hull::{mark_sector, mark_visible, outer_boundary};
 
 /// Sector `number` of `count`, where every third point of the sample is visible.
 fn division(
@@ -29,120 +28,6 @@ fn division(
     let sector = Sector::new(number, count).unwrap();
     let center = DVec3::from_array(viewpoint);
     Division::new(points, &blocks, center, radius, &seen, sector).unwrap()
-}
-
-fn compare(title: &str, places: &[[f64; 3]], viewpoint: [f64; 3], radius: f64) {
-    let points = Points::Double(places.to_vec());
-    let blocks = Blocks::around(&points).unwrap();
-    let spheres = &blocks.levels[0];
-    let flip = Flip::new(viewpoint, Kernel::Spherical { radius });
-    let mut whole = Memory::default();
-    mark_visible(&points, spheres, &flip, &mut whole).unwrap();
-    for count in [2, 3, 7] {
-        let mut times_visible: Vec<u32> = places.iter().map(|_| 0).collect();
-        let mut memory = Memory::default();
-        for number in 0..count {
-            let division = division(&points, viewpoint, radius, [number, count]);
-            mark_sector(&points, spheres, &flip, division, &mut memory).unwrap();
-            for (times, &visible) in times_visible.iter_mut().zip(memory.visible()) {
-                *times += u32::from(visible);
-            }
-        }
-        let expected: Vec<u32> = whole.visible().iter().map(|&v| u32::from(v)).collect();
-        assert_eq!(times_visible, expected, "{title}, {count} sectors");
-    }
-}
-
-/// The points of a box of cells, block by block.
-fn lattice(cells: usize) -> Vec<[f64; 3]> {
-    let mut places: Vec<[f64; 3]> = (0..cells.pow(3))
-        .map(|k| [k % cells, k / cells % cells, k / cells / cells].map(|x| x as f64))
-        .collect();
-    places.sort_by_key(|p| p.map(|x| x as u32 / 4));
-    places
-}
-
-#[test]
-fn sectors_of_a_surface_give_the_whole_answer() {
-    let places = Random::new(11).bumpy(5000);
-    compare("outside", &places, [0.0, 0.5, 2.5], 50.0);
-    compare("outside, few visible", &places, [2.0, 0.5, 0.0], 6.0);
-    compare("inside", &places, [0.1, 0.05, -0.1], 20.0);
-}
-
-#[test]
-fn sectors_of_a_lattice_give_the_whole_answer() {
-    let places = lattice(13);
-    compare("far outside", &places, [6.0, 6.0, 40.0], 300.0);
-    compare("in a plane of points", &places, [6.0, -9.0, 12.0], 100.0);
-    compare("on a line of points", &places, [6.0, 20.0, 12.0], 100.0);
-    compare("at a point", &places, [6.0, 6.0, 6.0], 60.0);
-    compare("at a corner", &places, [0.0, 0.0, 0.0], 60.0);
-}
-
-/// The boundary holds more than the vertices of the hull: points on its faces and edges.
-#[test]
-fn sectors_of_walls_give_the_whole_answer() {
-    let mut random = Random::new(12);
-    let size = [8.0, 6.0, 3.0];
-    let mut places: Vec<[f64; 3]> = (0..3000)
-        .map(|_| {
-            let mut p = size.map(|side| random.between(0.0, side));
-            let wall = random.below(6) as usize;
-            p[wall / 2] = if wall % 2 == 1 { size[wall / 2] } else { 0.0 };
-            p
-        })
-        .collect();
-    places.sort_by_key(|p| p.map(|x| x as u32));
-    compare("inside", &places, [2.0, 3.0, 1.5], 40.0);
-    compare("in a wall", &places, [2.0, 0.0, 1.5], 4000.0);
-    compare("in a wall, few visible", &places, [2.0, 0.0, 1.5], 11.0);
-    compare("at a point", &places, places[1700], 30.0);
-}
-
-/// Between the clusters there are large faces that no far point sees.
-#[test]
-fn sectors_of_clusters_give_the_whole_answer() {
-    let mut random = Random::new(13);
-    let mut places = Vec::new();
-    for _ in 0..60 {
-        let center = random.between(0.8, 1.2) * random.direction();
-        let size = random.between(0.02, 0.15);
-        for _ in 0..64 {
-            places.push((center + size * random.direction()).to_array());
-        }
-    }
-    compare("inside", &places, [0.05, 0.1, -0.1], 20.0);
-    compare("inside, many visible", &places, [0.05, 0.1, -0.1], 500.0);
-    compare("outside", &places, [0.0, 0.3, 2.5], 40.0);
-}
-
-/// Points that flip exactly on to the edges of an octahedron, with numbers that no operation rounds. All
-/// are visible, though only its corners are vertices.
-#[test]
-fn points_on_the_boundary_belong_to_their_sectors() {
-    let mut places: Vec<[f64; 3]> = Vec::new();
-    for axis in 0..3 {
-        for sign in [3.0, -3.0] {
-            let mut corner = [0.0; 3];
-            corner[axis] = sign;
-            places.push(corner);
-        }
-    }
-    for axis in 0..3 {
-        for [x, y] in [[3.0, 4.0], [4.0, -3.0], [-4.0, 3.0], [-3.0, -4.0]] {
-            let mut on_edge = [0.0; 3];
-            on_edge[axis] = x;
-            on_edge[(axis + 1) % 3] = y;
-            places.push(on_edge);
-        }
-    }
-    compare("octahedron", &places, [0.0; 3], 5.0);
-    let points = Points::Double(places);
-    let flip = Flip::new([0.0; 3], Kernel::Spherical { radius: 5.0 });
-    let mut memory = Memory::default();
-    mark_visible(&points, &[], &flip, &mut memory).unwrap();
-    assert_eq!(memory.visible(), [true; 18]);
 }
 
 /// A share whose hull holds the near points.
@@ -167,7 +52,7 @@ fn near_share<'a>(memory: &'a mut Memory, flipped: &'a Flipped, division: Divisi
 /// The viewpoint is just inside of a large face: the middle of a cap may lie beyond this face. Then no
 /// ring is looked for.
 #[test]
-fn sectors_behind_a_near_face_give_the_whole_answer() {
+fn no_ring_is_looked_for_behind_a_near_face() {
     let mut random = Random::new(15);
     let depth = 1e-6;
     let mut places: Vec<[f64; 3]> = (0..3000)
@@ -182,7 +67,6 @@ fn sectors_behind_a_near_face_give_the_whole_answer() {
         let (sine, cosine) = f64::from(k).sin_cos();
         [-depth, cosine, sine]
     }));
-    compare("just inside", &places, [0.0; 3], 10.0);
     let points = Points::Double(places);
     let flip = Flip::new([0.0; 3], Kernel::Spherical { radius: 10.0 });
     let flipped = Flipped::of(&points, &[], &flip);
