@@ -135,6 +135,11 @@ const PACKED_FAULTS: [name: string, content: Uint8Array, expected: Case["expecte
   ["bytes behind it", bytes(pcdBody("binary_compressed"), "x"), "it goes on after the last of the points"],
   ["zeros behind it", bytes(pcdBody("binary_compressed"), new Uint8Array(9)), SAME],
   ["all zeros, by one copy of itself", packed(Uint8Array.of(0, 0, 0xe0, 42, 0), 52), new Array<number>(12).fill(0)],
+  [
+    "1 and 2 by turns, by a copy of eight bytes before",
+    packed(Uint8Array.of(7, 0, 0, 128, 63, 0, 0, 0, 64, 0xe0, 35, 7), 52),
+    [1, 1, 1, 2, 2, 2, 1, 1, 1, 2, 2, 2],
+  ],
 ];
 
 /** Types of x, y and z. Three numbers of another type lie between x and y. */

@@ -1,8 +1,8 @@
 import { describe, expect, it } from "vitest";
 
-import { freshPackage, problemOf, readyPackage } from "./support";
+import { expectRefusal, freshPackage, problemOf, readyPackage } from "./support";
 
-const { permissibleCurvature, radiusBound, HprError } = await readyPackage();
+const { permissibleCurvature, radiusBound } = await readyPackage();
 const loose = (value: unknown) => value as never;
 
 describe("the paper's bounds", () => {
@@ -17,12 +17,7 @@ describe("the paper's bounds", () => {
     [/distance.*Infinity|distance.*infinity/, () => radiusBound(1, Infinity, 1)],
     [/spacing.*null/, () => radiusBound(1, 1, loose(null))],
   ];
-  it.each(refusals)("refuse with an option error that names %s", async (names, call) => {
-    const problem = await problemOf(call);
-    expect(problem).toBeInstanceOf(HprError);
-    expect(problem.code).toBe("option");
-    expect(problem.message).toMatch(names);
-  });
+  it.each(refusals)("refuse with an option error that names %s", (names, call) => expectRefusal("option", names, call));
 });
 
 it("nothing answers before init() has resolved", async () => {

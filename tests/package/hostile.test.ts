@@ -3,9 +3,9 @@
 import { runInNewContext } from "node:vm";
 import { afterEach, describe, expect, it } from "vitest";
 
-import { bumpySphere, freshPackage, problemOf, readyPackage } from "./support";
+import { bumpySphere, expectRefusal, freshPackage, problemOf, readyPackage } from "./support";
 
-const { PointCloud, WorkerPointCloud, HprError } = await readyPackage();
+const { PointCloud, WorkerPointCloud } = await readyPackage();
 
 const sphere = bumpySphere(1, 500);
 const farAway = [0, 0, 5];
@@ -16,13 +16,6 @@ const loose = (value: unknown) => value as never;
 function transferredAway<T extends ArrayBufferView>(view: T): T {
   structuredClone(view, { transfer: [view.buffer as ArrayBuffer] });
   return view;
-}
-
-async function expectRefusal(code: string, names: RegExp, call: () => unknown) {
-  const problem = await problemOf(call);
-  expect(problem).toBeInstanceOf(HprError);
-  expect(problem.code).toBe(code);
-  expect(problem.message).toMatch(names);
 }
 
 afterEach(() => {
@@ -117,17 +110,6 @@ describe("signals", () => {
     process.off("unhandledRejection", note);
     expect(unhandled).toEqual([]);
   });
-
-  it("leave a waiting request alone if they aborted before", async () => {
-    const remote = await WorkerPointCloud.create(sphere);
-    const running = remote.visibleFrom([0, 0, 4]);
-    const live = remote.visibleFrom(farAway, { latest: true });
-    const dead = problemOf(() => remote.visibleFrom([0, 0, 6], { latest: true, signal: AbortSignal.abort() }));
-    expect((await dead).name).toBe("AbortError");
-    expect(await live).toEqual(expected);
-    await running;
-    await remote.dispose();
-  });
 });
 
 describe("init, called with another input while it is starting,", () => {
@@ -151,16 +133,6 @@ describe("init, called with another input while it is starting,", () => {
 });
 
 describe("messages", () => {
-  it.each<[RegExp, () => unknown]>([
-    [/got infinity$/, () => witness.visibleFrom(farAway, { radius: Infinity })],
-    [/got 0$/, () => witness.visibleFrom(farAway, { radius: 0 })],
-    [/got 0, -infinity, 5$/, () => witness.visibleFrom([0, -Infinity, 5])],
-    [/radius 5 is/, () => witness.visibleFrom(farAway, { radius: 5 })],
-    [/radius 1e308 /, () => witness.visibleFrom(farAway, { radius: 1e308 })],
-  ])("write numbers plainly: %s", async (names, call) => {
-    expect((await problemOf(call)).message).toMatch(names);
-  });
-
   it.each<[RegExp, () => unknown]>([
     [/from the given Response:/, () => new Response(new Uint8Array(3))],
     [/from an empty address:/, () => ""],

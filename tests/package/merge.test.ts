@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 
-import { freshPackage, problemOf, readyPackage } from "./support";
+import { expectRefusal, freshPackage, problemOf, readyPackage } from "./support";
 
 const { mergeVisible, HprError } = await readyPackage();
 
@@ -56,12 +56,9 @@ describe("refusals", () => {
     ["radius", /\b0\b/, [part], { radius: 0 }],
   ];
 
-  it.each(refusals)("%s, naming %s: case %#", async (code, names, parts, options, viewpoint = farAway) => {
-    const problem = await problemOf(() => mergeVisible(loose(parts), loose(viewpoint), loose(options)));
-    expect(problem).toBeInstanceOf(HprError);
-    expect(problem.code).toBe(code);
-    expect(problem.message).toMatch(names);
-  });
+  it.each(refusals)("%s, naming %s: case %#", (code, names, parts, options, viewpoint = farAway) =>
+    expectRefusal(code, names, () => mergeVisible(loose(parts), loose(viewpoint), loose(options))),
+  );
 
   it.each<["positions" | "ids", string, RegExp]>([
     ["positions", "positions-type", /^parts\[0\]: the memory of the positions is gone/],
@@ -77,10 +74,7 @@ describe("refusals", () => {
         },
         ids,
       };
-      const problem = await problemOf(() => mergeVisible([first, second], farAway, radius));
-      expect(problem).toBeInstanceOf(HprError);
-      expect(problem.code).toBe(code);
-      expect(problem.message).toMatch(message);
+      await expectRefusal(code, message, () => mergeVisible([first, second], farAway, radius));
     }
   });
 

@@ -22,22 +22,20 @@ const positions = dome(10_000);
 const cloud = new PointCloud(positions);
 
 it("gives ranges, points and areas of a dome", () => {
-  for (const options of [{}, { looks: 3 as const }, { inversion: { exponential: "auto" as const } }]) {
-    const { ranges, indices, skyViewFactor, solidAngle } = cloud.panorama([0, 0, 0], { ...size, ...options });
-    expect([ranges.length, indices.length]).toEqual([128 * 64, 128 * 64]);
-    expect(Math.abs(solidAngle / (2 * Math.PI) - 1)).toBeLessThan(0.01);
-    expect(skyViewFactor).toBeLessThan(0.001);
-    ranges.forEach((range, pixel) => {
-      const isSky = indices[pixel] === SKY;
-      expect(range === Infinity).toBe(isSky);
-      if (pixel < 128 * 30) expect(Math.abs(range - 5)).toBeLessThan(0.05);
-      if (pixel >= 128 * 32) expect(isSky).toBe(true);
-    });
-    // Column 0 looks along +x, a quarter of the width later it is +y.
-    const [x, y] = [0, 32].map((column) => indices[20 * 128 + column]!);
-    expect(positions[3 * x!]! / 5).toBeGreaterThan(0.7);
-    expect(positions[3 * y! + 1]! / 5).toBeGreaterThan(0.7);
-  }
+  const { ranges, indices, skyViewFactor, solidAngle } = cloud.panorama([0, 0, 0], size);
+  expect([ranges.length, indices.length]).toEqual([128 * 64, 128 * 64]);
+  expect(Math.abs(solidAngle / (2 * Math.PI) - 1)).toBeLessThan(0.01);
+  expect(skyViewFactor).toBeLessThan(0.001);
+  const isRight = (range: number, pixel: number) => {
+    const isSky = indices[pixel] === SKY;
+    const isDome = pixel < 128 * 30 && Math.abs(range - 5) < 0.05;
+    return (range === Infinity) === isSky && (isDome || (pixel >= 128 * 30 && (isSky || pixel < 128 * 32)));
+  };
+  expect([...ranges].filter((range, pixel) => !isRight(range, pixel))).toEqual([]);
+  // Column 0 looks along +x, a quarter of the width later it is +y.
+  const [x, y] = [0, 32].map((column) => indices[20 * 128 + column]!);
+  expect(positions[3 * x!]! / 5).toBeGreaterThan(0.7);
+  expect(positions[3 * y! + 1]! / 5).toBeGreaterThan(0.7);
 });
 
 it("takes parts, and the answers of workers are the same", async () => {

@@ -2,7 +2,6 @@
 import { afterEach, beforeEach, expect, it } from "vitest";
 
 import { CountedWorker, OriginalWorker, replaceWorker, running } from "./node-workers";
-import { cappedWasm } from "./capped-wasm";
 import { bumpySphere, freshPackage, problemOf, readyPackage } from "./support";
 import { trappingWasm } from "./trapping-wasm";
 
@@ -49,22 +48,6 @@ it("each cloud answers as if it were alone, and the worker ends with the last", 
   expect(await anew.visibleFrom(farAway)).toEqual(expected[2]);
   expect(started).toBe(2);
   await anew.dispose();
-});
-
-it("gives a cloud's memory back when it leaves", async () => {
-  const fresh = await freshPackage();
-  // 20 MB hold one cloud of 200,000 points (3.4 MB) at a time, but not all of them.
-  await fresh.init(cappedWasm(300));
-  const create = (positions: Float32Array) => fresh.WorkerPointCloud.create(positions, { shared: true });
-  const stays = await create(bumpySphere(1, 100));
-  const large = bumpySphere(2, 200_000);
-  for (let i = 0; i < 12; i++) {
-    const cloud = await create(large);
-    expect(cloud).toHaveLength(200_000);
-    await cloud.dispose();
-  }
-  expect((await stays.visibleFrom(farAway)).count).toBeGreaterThan(10);
-  await stays.dispose();
 });
 
 it("all clouds of a dead worker are lost, and the next cloud gets a new worker", async () => {

@@ -1,6 +1,6 @@
 import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
-import { vi } from "vitest";
+import { expect, vi } from "vitest";
 import { seeded as randomNumbers } from "../bench/generators";
 import "./same-bytes";
 
@@ -67,4 +67,12 @@ export async function problemOf(call: () => unknown): Promise<Problem> {
     return error as Problem;
   }
   throw new Error("nothing was thrown");
+}
+
+export type Refusal = [code: string, names: RegExp, call: () => unknown];
+
+/** A call must be refused with this code, in words that match. */
+export async function expectRefusal(code: string, names: RegExp, call: () => unknown): Promise<void> {
+  const message = expect.stringMatching(names) as string;
+  expect(await problemOf(call)).toMatchObject({ name: "HprError", code, message });
 }

@@ -4,11 +4,11 @@ import { runInNewContext } from "node:vm";
 import type threads from "node:worker_threads";
 import { afterEach, beforeEach, describe, expect, it } from "vitest";
 
-import { CountedWorker, OriginalWorker, replaceWorker, running } from "./node-workers";
-import { bumpySphere, freshPackage, problemOf, readyPackage } from "./support";
+import { OriginalWorker, replaceWorker } from "./node-workers";
+import { bumpySphere, expectRefusal, freshPackage, problemOf, readyPackage } from "./support";
 import { trappingWasm } from "./trapping-wasm";
 
-const { WorkerPointCloud, PointCloud, HprError } = await readyPackage();
+const { WorkerPointCloud, PointCloud } = await readyPackage();
 
 type WorkerCloud = Awaited<ReturnType<typeof WorkerPointCloud.create>>;
 
@@ -138,12 +138,9 @@ describe("refusals", () => {
     ["option", /signal/, sphere, { signal: 1 }],
   ];
 
-  it.each(refusals)("by create: %s, naming %s", async (code, names, positions, options) => {
-    const problem = await problemOf(() => WorkerPointCloud.create(loose(positions), loose(options)));
-    expect(problem).toBeInstanceOf(HprError);
-    expect(problem.code).toBe(code);
-    expect(problem.message).toMatch(names);
-  });
+  it.each(refusals)("by create: %s, naming %s", (code, names, positions, options) =>
+    expectRefusal(code, names, () => WorkerPointCloud.create(loose(positions), loose(options))),
+  );
 });
 
 describe("requests given up", () => {
@@ -167,21 +164,6 @@ describe("requests given up", () => {
     return count;
   };
 
-  it("are not sent to the worker if they were aborted while they waited", async () => {
-    const count = counted();
-    const cloud = await WorkerPointCloud.create(sphere);
-    count.posted = 0;
-    const abort = new AbortController();
-    const first = cloud.visibleFrom(farAway);
-    const second = cloud.visibleFrom([5, 0, 0], { signal: abort.signal });
-    const third = cloud.visibleFrom([0, 5, 0]);
-    abort.abort();
-    await expect(second).rejects.toThrow("abort");
-    await Promise.all([first, third]);
-    expect(count.posted).toBe(2);
-    await cloud.dispose();
-  });
-
   it("tell the worker if they are aborted while it works", async () => {
     const count = counted();
     const cloud = await WorkerPointCloud.create(sphere);
@@ -196,40 +178,6 @@ describe("requests given up", () => {
     await cloud.dispose();
   });
 
-  it("are overtaken only by requests of the same kind", async () => {
-    const cloud = await WorkerPointCloud.create(sphere);
-    const [late, options] = [AbortSignal.abort(), { latest: true }];
-    const frame = () => [
-      cloud.visibleFrom(farAway, options),
-      cloud.visibleFromDirection([0, 0, -1], options),
-      cloud.visibleFromAny([farAway], options),
-      cloud.visibleFromAtLeast(1, [farAway], options),
-      cloud.autoRadius(farAway, "search", options),
-      cloud.reconstruct(farAway, options),
-      cloud.illuminate([farAway], options),
-    ];
-    const [first, second, third] = [frame(), frame(), frame()].map(settled) as [
-      Promise<string[]>,
-      Promise<string[]>,
-      Promise<string[]>,
-    ];
-    const none = new Array<string>(7).fill("aborted");
-    const all = new Array<string>(7).fill("answered");
-    // The first request had already begun.
-    expect(await first).toEqual(["answered", ...none.slice(1)]);
-    expect(await second).toEqual(none);
-    expect(await third).toEqual(all);
-    const given = { signal: late };
-    const aborted = [
-      cloud.visibleFromDirection([0, 0, -1], given),
-      cloud.visibleFromAtLeast(1, [farAway], given),
-      cloud.autoRadius(farAway, "auto", given),
-      cloud.reconstruct(farAway, given),
-      cloud.illuminate([farAway], given),
-    ];
-    expect(await settled(aborted)).toEqual(none.slice(2));
-  });
-
   it("end the worker that was being started for a cloud", async () => {
     const controller = new AbortController();
     const creating = settled([WorkerPointCloud.create(sphere, { signal: controller.signal })]);
@@ -237,20 +185,6 @@ describe("requests given up", () => {
     expect(await creating).toEqual(["aborted"]);
     // A thread that has ended no longer has a number.
     await expect.poll(() => started.map(({ threadId }) => threadId)).toEqual([-1]);
-  });
-
-  it("include requests whose signal aborts: waiting, running, or not yet asked", async () => {
-    const cloud = await WorkerPointCloud.create(sphere);
-    const [running, waiting] = [new AbortController(), new AbortController()];
-    const asked = [
-      cloud.visibleFrom(farAway, { signal: running.signal }),
-      cloud.visibleFrom(farAway, { signal: waiting.signal }),
-      cloud.visibleFrom(farAway, { signal: AbortSignal.abort(new Error("a reason of one's own")) }),
-      cloud.visibleFrom(farAway, { signal: new AbortController().signal }),
-    ];
-    waiting.abort();
-    running.abort();
-    expect(await settled(asked)).toEqual(["aborted", "aborted", "aborted", "answered"]);
   });
 
   it("listen to a signal only once together, and only while they are pending", async () => {
@@ -274,17 +208,6 @@ describe("requests given up", () => {
     process.off("warning", warn);
     expect(warnings).toEqual([]);
   });
-
-  it("may include the request for the cloud itself", async () => {
-    const controller = new AbortController();
-    const creating = [
-      WorkerPointCloud.create(sphere, { signal: controller.signal }),
-      WorkerPointCloud.create(sphere, { signal: AbortSignal.abort() }),
-      WorkerPointCloud.create(sphere, { signal: new AbortController().signal }),
-    ];
-    controller.abort();
-    expect(await settled(creating)).toEqual(["aborted", "aborted", "answered"]);
-  });
 });
 
 describe("a worker that is gone", () => {
@@ -297,17 +220,6 @@ describe("a worker that is gone", () => {
     cloud.append(sphere),
     cloud.remove([0]),
   ];
-
-  it("rejects what is pending with disposed, after dispose()", async () => {
-    const cloud = await WorkerPointCloud.create(sphere);
-    const pending = codesOf(pendingIn(cloud));
-    const [first, second] = [cloud.dispose(), cloud.dispose()];
-    expect(await pending).toEqual(Array<string>(5).fill("disposed"));
-    expect(await codesOf(pendingIn(cloud))).toEqual(Array<string>(5).fill("disposed"));
-    await first;
-    await second;
-    expect(started.at(-1)!.threadId).toBe(-1);
-  });
 
   it("rejects everything with internal if it died, and a new cloud works", async () => {
     const [cloud, other] = [await WorkerPointCloud.create(sphere), await WorkerPointCloud.create(sphere)];
@@ -348,20 +260,5 @@ describe("a worker that is gone", () => {
     const problem = await problemOf(() => WorkerPointCloud.create(sphere));
     expect(problem.code).toBe("load");
     expect(problem.message).toMatch(/worker-thread\.js/);
-  });
-
-  it("ends the workers that were started if another one could not be", async () => {
-    replaceWorker(
-      class extends CountedWorker {
-        constructor(...args: ConstructorParameters<typeof OriginalWorker>) {
-          if (running.size === 2) throw new Error("no more threads");
-          super(...args);
-        }
-      },
-    );
-    const problem = await problemOf(() => WorkerPointCloud.create(sphere, { workers: 3 }));
-    expect(problem.code).toBe("load");
-    expect(problem.message).toContain("no more threads");
-    await expect.poll(() => running.size).toBe(0);
   });
 });
