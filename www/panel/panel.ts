@@ -1,13 +1,12 @@
 import type { ViewAnswer } from "../ask/views.ts";
 import type { Cloud } from "../cloud/cloud.ts";
 import { byId } from "../controls/dom.ts";
-import { type Settings, USUAL_SETTINGS } from "../settings/settings.ts";
+import { canLook, type Settings, USUAL_SETTINGS } from "../settings/settings.ts";
 import type { Store } from "../settings/store.ts";
 import { Moves } from "../view/moves.ts";
 import type { Turning } from "../view/turning.ts";
 import type { Viewer } from "../view/viewer.ts";
 import { bindColor, type ColorControl } from "./color.ts";
-import { explainLooks } from "./looks.ts";
 import { PointSize } from "./point-size.ts";
 import { bindRadius } from "./radius.ts";
 import { bindSections } from "./sections.ts";
@@ -29,7 +28,10 @@ export class Panel {
   constructor(viewer: Viewer, store: Store, opened: Settings, turning: Turning) {
     this.follow = bindRadius(store);
     bindSettings(store);
-    explainLooks(store);
+    const looks = byId("looks", HTMLFieldSetElement);
+    store.follow((now) => {
+      looks.disabled = !canLook(now);
+    });
     this.#color = bindColor(store);
     viewer.onLegend = this.#color.explain;
     const moves = new Moves(byId("view", HTMLCanvasElement), viewer, store, () => this.usual);

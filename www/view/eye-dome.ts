@@ -46,8 +46,6 @@ const fragmentShader = /* glsl */ `
   uniform bool shadesAll;
   /* How opaque all points are where the scene is empty, and up to which pixel from the left they are drawn alone. */
   uniform float behind, alone;
-  /* The distance in pixels of the first neighbors that a gap is looked for between. 0: gaps stay. */
-  uniform float gap;
   out vec4 result;
 
   const vec2 AROUND[8] = vec2[8](
@@ -77,52 +75,10 @@ const fragmentShader = /* glsl */ `
     return mix(shadesAll ? vec3(0.0) : background, color, mix(0.2, 1.0, shade));
   }
 
-  /*
-   * An empty pixel between two points of the scene is a gap in a surface, or the seam behind a silhouette. It gets the
-   * place of the farther one of the two. Returns the pixel itself if it is not such a gap.
-   */
-  ivec2 acrossGap(ivec2 pixel) {
-    ivec2 last = textureSize(depths, 0) - 1;
-    ivec2 best = pixel;
-    float farthest = 0.0;
-    for (int i = 0; i < 4; i++) {
-      vec2 ends = vec2(1.0);
-      ivec2 places[2] = ivec2[2](pixel, pixel);
-      for (int side = 0; side < 2; side++) {
-        for (float away = 1.0; away <= 2.0 && ends[side] == 1.0; away++) {
-          places[side] = clamp(pixel + ivec2(round((side == 0 ? gap : -gap) * away * AROUND[i])), ivec2(0), last);
-          ends[side] = texelFetch(depths, places[side], 0).r;
-        }
-      }
-      if (max(ends.x, ends.y) == 1.0) continue;
-      float farther = max(ends.x, ends.y);
-      if (farther <= farthest) continue;
-      farthest = farther;
-      best = places[ends.x > ends.y ? 0 : 1];
-    }
-    return best;
-  }
-
-  /* A quick test: most empty pixels are background, with no point around. */
-  bool isNearPoints(ivec2 pixel) {
-    ivec2 last = textureSize(depths, 0) - 1;
-    int away = int(round(2.0 * gap));
-    float nearest = 1.0;
-    for (int i = 0; i < (gap > 0.0 ? 4 : 0); i++) {
-      ivec2 there = clamp(pixel + (i < 2 ? ivec2(away * (2 * i - 1), 0) : ivec2(0, away * (2 * i - 5))), ivec2(0), last);
-      nearest = min(nearest, texelFetch(depths, there, 0).r);
-    }
-    return nearest < 1.0;
-  }
-
   void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     bool isAlone = gl_FragCoord.x < alone;
     float depth = isAlone ? 1.0 : texelFetch(depths, pixel, 0).r;
-    if (depth >= 1.0 && !isAlone && behind < 1.0 && isNearPoints(pixel)) {
-      pixel = acrossGap(pixel);
-      depth = texelFetch(depths, pixel, 0).r;
-    }
     if (depth < 1.0) {
       gl_FragDepth = depth;
       result = vec4(shaded(colors, depths, pixel, depth), 1.0);
@@ -152,8 +108,8 @@ export class EyeDome {
   /** The width of a point in the scene's units. */
   pointWidth = 1;
   /**
-   * Whether the points of a surface touch. Then gaps of a pixel or two between them are closed, and the picture of all
-   * points is shaded, too. The shade of small points would make the far side darker, and hide it.
+   * Whether the points of a surface touch. Then the picture of all points is shaded, too. The shade of small points would
+   * make the far side darker, and hide it.
    */
   touching = true;
   readonly #target = newTarget();
@@ -178,7 +134,6 @@ export class EyeDome {
         allDepths: { value: null },
         behind: { value: 0 },
         alone: { value: 0 },
-        gap: { value: 1 },
         planes: { value: this.#planes },
         background: { value: new Color() },
         reach: { value: REACH },
@@ -241,7 +196,6 @@ export class EyeDome {
   #shade(renderer: WebGLRenderer, camera: PerspectiveCamera): void {
     this.#planes.set(camera.near, camera.far);
     this.#material.uniforms["reach"]!.value = REACH * renderer.getPixelRatio();
-    this.#material.uniforms["gap"]!.value = this.touching ? Math.max(1, renderer.getPixelRatio()) : 0;
     this.#material.uniforms["shadesAll"]!.value = this.touching;
     this.#material.uniforms["strength"]!.value = this.touching ? STRENGTH : SMALL_STRENGTH;
     // At this distance a point is as wide as SOFT_FROM pixels. Nearer points are wider in proportion.
