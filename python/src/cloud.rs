@@ -162,7 +162,7 @@ impl PointCloud {
     /// The mean distance of a point to its 6 nearest points: float, in the cloud's units.
     #[getter]
     pub fn spacing(&self, py: Python<'_>) -> PyResult<f64> {
-        self.cloud.get(py, core::PointCloud::spacing)
+        self.cloud.ask(py, core::PointCloud::spacing)
     }
 
     /// How far measured points lie off their surface: float, one standard deviation, in the cloud's units. 0 where

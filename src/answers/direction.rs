@@ -16,11 +16,10 @@ use crate::base::error::Error;
 use crate::cloud::point_cloud::PointCloud;
 use crate::flip::lift::Lift;
 use crate::hull;
-use crate::view::choice;
 use crate::view::options::{Exponential, Inversion, Options, Radius};
 use crate::view::radius::{self, ChosenRadius};
 use crate::view::refusals::QuestionKind;
-use crate::view::resolved::{SEVERAL_HULLS, looks, normalized, resolved_inversion};
+use crate::view::resolved::{SEVERAL_HULLS, looks, normalized};
 
 impl PointCloud {
     /// Which points are visible along `direction`, the direction in which an orthographic camera
@@ -73,7 +72,7 @@ impl PointCloud {
         ahead: DVec3,
         options: &Options,
     ) -> Result<(Vec<bool>, ChosenRadius, Inversion), Error> {
-        let inversion = resolved_inversion(options, self.statistics.spacing)?;
+        let inversion = self.resolved_inversion(options)?;
         let (bend, chosen) = self.bend(ahead, options.radius, inversion)?;
         let lift = Lift::new(&self.bounds, ahead, bend);
         let points = &self.sequence.points;
@@ -89,9 +88,6 @@ impl PointCloud {
         choice: Radius,
         inversion: Inversion,
     ) -> Result<(f64, ChosenRadius), Error> {
-        let statistics = &self.statistics;
-        let texture = self.texture_for(choice)?;
-        let gap = radius::effective_gap(statistics, &texture);
         let scale = match inversion {
             Inversion::Spherical => None,
             Inversion::Exponential(Exponential::Scale(scale)) => Some(scale),
@@ -102,6 +98,7 @@ impl PointCloud {
         if let Some(scale) = scale {
             return Ok((0.5 / scale, ChosenRadius::unit(0.0)));
         }
+        let statistics = &self.statistics()?;
         let diagonal = self.bounds.diagonal();
         if statistics.count == 0 {
             // There is nothing to measure. Options that other clouds refuse are refused here, too.
@@ -117,6 +114,7 @@ impl PointCloud {
             .blocks
             .farthest_distance(&self.sequence.points, viewpoint)?;
         if let Radius::Auto = choice {
+            let gap = radius::effective_gap(statistics, &self.known_noise()?.texture);
             // Without a gap any bend gives the same answer.
             let bend = if gap > 0.0 {
                 radius::bend(statistics.count, gap)
@@ -126,16 +124,7 @@ impl PointCloud {
             let radius = bend * diagonal * diagonal;
             return Ok((bend, radius::bounded(radius, farthest)));
         }
-        let points = &self.sequence.points;
-        let chosen = choice::resolve(
-            choice,
-            points,
-            &self.blocks,
-            statistics,
-            &texture,
-            viewpoint,
-            farthest,
-        )?;
+        let chosen = self.chosen_radius(choice, viewpoint, farthest)?;
         Ok((chosen.radius / diagonal / diagonal, chosen))
     }
 }

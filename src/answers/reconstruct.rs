@@ -62,7 +62,10 @@ impl PointCloud {
     ) -> Result<Reconstruction, Error> {
         options.check(QuestionKind::Reconstruct)?;
         let chosen = self.chosen(Some(viewpoint), options)?;
-        let longest = max_edge.unwrap_or(SPACINGS * chosen.statistics.spacing);
+        let longest = match max_edge {
+            Some(longest) => longest,
+            None => SPACINGS * chosen.spacing()?,
+        };
         in_range("maxEdge", longest, 0.0, f64::INFINITY)?;
         let part = self.part(Some(viewpoint), options)?;
         let (visibility, mut triangles) = part.triangulate(viewpoint, options)?;

@@ -156,7 +156,7 @@ impl PointCloud {
         let points = self.sequence.points.gathered(&sample)?;
         let center = DVec3::from_array(viewpoint);
         // Sparser points need a smaller sphere, as in the automatic radius.
-        let sparser = square_root(points.len() as f64 / self.statistics.count as f64);
+        let sparser = square_root(points.len() as f64 / self.sequence.points.len() as f64);
         let mut coarse = radius * sparser;
         for point in points.iter() {
             let distance = (DVec3::from_array(point) - center).length();

@@ -13,7 +13,6 @@ use crate::cloud::point_cloud::PointCloud;
 use crate::view::options::{Inversion, Options};
 use crate::view::radius::ChosenRadius;
 use crate::view::refusals::QuestionKind;
-use crate::view::resolved::resolved_inversion;
 use crate::view::seat::Seat;
 
 impl PointCloud {
@@ -70,7 +69,7 @@ impl PointCloud {
     fn nothing(&self, options: &Options) -> Result<Visibility, Error> {
         let inversion = match options.inversion {
             Inversion::Looks(_) => options.inversion,
-            _ => resolved_inversion(options, self.statistics.spacing)?,
+            _ => self.resolved_inversion(options)?,
         };
         self.answer(&[], options, ChosenRadius::unit(0.0), inversion)
     }

@@ -358,7 +358,7 @@ impl PointCloud {
         let mut answer = Visibility::new(indices, self.len(), chosen, inversion);
         answer.exact = options.is_exact();
         if let Inversion::Looks(count) = inversion {
-            let scales = even_scales(count, &self.statistics);
+            let scales = even_scales(count, &self.statistics()?);
             answer.looks = with_capacity(count)?;
             answer.looks.extend_from_slice(&scales[..count]);
         }

@@ -2,6 +2,7 @@
 //! many points at once, from any viewpoint.
 
 use alloc::vec::Vec;
+use core::ops::Range;
 use glam::DVec3;
 
 use crate::base::allocation::{OutOfMemory, reserve, with_capacity};
@@ -41,14 +42,17 @@ impl Blocks {
     /// The spheres around `points`, which are in their spatial order.
     #[inline(never)]
     pub(crate) fn around(points: &Points) -> Result<Self, OutOfMemory> {
-        let point = |index: usize| Sphere {
-            center: points.get(index),
-            radius: 0.0,
-        };
         let mut levels = Vec::new();
-        let mut level = around_runs(points.len(), BLOCK, &point)?;
+        let mut level = around_runs(points.len(), BLOCK, &|run, spheres| {
+            spheres.extend(run.map(|index| Sphere {
+                center: points.get(index),
+                radius: 0.0,
+            }));
+        })?;
         while level.len() > FANOUT {
-            let above = around_runs(level.len(), FANOUT, &|node| level[node])?;
+            let above = around_runs(level.len(), FANOUT, &|run, spheres| {
+                spheres.extend_from_slice(&level[run]);
+            })?;
             reserve(&mut levels, 2)?;
             levels.push(level);
             level = above;
@@ -109,19 +113,21 @@ impl Blocks {
     }
 }
 
-/// A sphere around every `run` of `count` spheres.
+/// A sphere around every `run` of `count` spheres, of which `copy` copies a run.
 fn around_runs(
     count: usize,
     run: usize,
-    sphere: &dyn Fn(usize) -> Sphere,
+    copy: &dyn Fn(Range<usize>, &mut Vec<Sphere>),
 ) -> Result<Vec<Sphere>, OutOfMemory> {
     let mut around: Vec<Sphere> = with_capacity(count.div_ceil(run))?;
+    let mut spheres: Vec<Sphere> = with_capacity(run)?;
     for start in (0..count).step_by(run) {
-        let end = count.min(start + run);
-        let bounds = Bounds::around((start..end).map(|k| sphere(k).center));
+        spheres.clear();
+        copy(start..count.min(start + run), &mut spheres);
+        let bounds = Bounds::around(spheres.iter().map(|sphere| sphere.center));
         let center = core::array::from_fn(|axis| bounds.min[axis] * 0.5 + bounds.max[axis] * 0.5);
         let mut radius = 0.0f64;
-        for inner in (start..end).map(sphere) {
+        for inner in &spheres {
             let v = DVec3::from_array(inner.center) - DVec3::from_array(center);
             // Where squares underflow, the sum of the coordinates is an upper bound.
             let tiny = v.abs().element_sum();

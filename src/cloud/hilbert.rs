@@ -49,12 +49,13 @@ const TABLE: [u8; 256] = {
     table
 };
 
-/// The key of a cell. Its numbers are below 2^[`BITS`].
-pub(super) fn hilbert_key(cell: [u32; 3]) -> u64 {
+/// The first digits of the key of a cell, one for each level. The numbers of the cell are below
+/// 2^[`BITS`].
+pub(super) fn hilbert_key(cell: [u32; 3], levels: u32) -> u64 {
     let octants = interleave(cell);
     let mut turned = 0;
     let mut key = 0;
-    for digit in (0..BITS).rev() {
+    for digit in (BITS - levels..BITS).rev() {
         let octant = (octants >> (3 * digit)) as u8 & 7;
         turned = TABLE[(turned & !7 | octant) as usize];
         key = key << 3 | u64::from(turned & 7);
@@ -110,7 +111,10 @@ mod tests {
         for _ in 0..10_000 {
             let cell = [0; 3].map(|_: u32| random.below(1 << BITS) as u32);
             let key = interleave(transposed(cell));
-            assert_eq!(hilbert_key(cell), key, "{cell:?}");
+            for levels in [0, 1, 12, BITS] {
+                let first = key >> (3 * (BITS - levels));
+                assert_eq!(hilbert_key(cell, levels), first, "{cell:?} {levels}");
+            }
         }
     }
 }

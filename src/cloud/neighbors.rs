@@ -58,7 +58,7 @@ impl<'a> Neighbors<'a> {
     }
 
     /// Fills `nearest` with the nearest other points of point `query`. It takes as many as it has
-    /// room for, or all of them. It is fast if the query before was in the same leaf or near it.
+    /// room for, or all of them. It is fast if the queries before were in the same leaf.
     pub(crate) fn find(&self, query: usize, nearest: &mut Nearest) {
         beat::step();
         let Nearest { best, nearby } = nearest;
@@ -71,11 +71,16 @@ impl<'a> Neighbors<'a> {
         for leaf in side.clone().filter(|&leaf| leaf != own) {
             self.scan_leaf(leaf, query, best);
         }
-        if nearby.leaf != own || best.worst() > nearby.reach {
-            // Most other queries of this leaf find their neighbors in this reach, too.
-            self.list_nearby(own, 2.0 * best.worst(), nearby);
-        }
         let center = self.points.get(query);
+        if nearby.leaf != own {
+            // A list does not pay for a single query of a leaf.
+            nearby.leaf = own;
+            nearby.reach = -1.0;
+            nearby.is_complete = false;
+        } else if best.worst() > nearby.reach {
+            // Most other queries of this leaf find their neighbors in this reach, too.
+            self.list_nearby(2.0 * best.worst(), nearby);
+        }
         if nearby.is_complete {
             for &leaf in &nearby.leaves {
                 // A box at exactly the worst distance may hold a point that wins the tie.
@@ -84,11 +89,15 @@ impl<'a> Neighbors<'a> {
                 }
             }
         } else {
-            let top = self.levels.len() - 1;
-            for node in 0..self.levels[top].len() {
-                self.descend(top, node, query, &side, best);
-            }
+            let (top, nodes) = self.top();
+            self.descend(top, nodes, query, &side, best);
         }
+    }
+
+    /// The highest level, and its nodes.
+    fn top(&self) -> (usize, Range<usize>) {
+        let top = self.levels.len() - 1;
+        (top, 0..self.levels[top].len())
     }
 
     /// The leaf `own` and the leaves before and after it.
@@ -96,31 +105,30 @@ impl<'a> Neighbors<'a> {
         own.saturating_sub(1)..self.levels[0].len().min(own + 2)
     }
 
-    /// Lists the leaves that are at most the root of `reach` away from the leaf `own`.
-    fn list_nearby(&self, own: usize, reach: f64, nearby: &mut NearbyLeaves) {
-        nearby.leaf = own;
+    /// Lists the leaves that are at most the root of `reach` away from the leaf of `nearby`.
+    fn list_nearby(&self, reach: f64, nearby: &mut NearbyLeaves) {
         nearby.reach = reach;
         nearby.is_complete = true;
         nearby.leaves.clear();
-        let top = self.levels.len() - 1;
-        for node in 0..self.levels[top].len() {
-            self.list(top, node, nearby);
-        }
+        let (top, nodes) = self.top();
+        self.list(top, nodes, nearby);
     }
 
-    fn list(&self, level: usize, node: usize, nearby: &mut NearbyLeaves) {
-        let own = &self.levels[0][nearby.leaf];
-        if !nearby.is_complete || self.levels[level][node].gap_squared(own) > nearby.reach {
-            return;
-        }
-        if level > 0 {
-            for child in self.children(level, node) {
-                self.list(level - 1, child, nearby);
+    fn list(&self, level: usize, nodes: Range<usize>, nearby: &mut NearbyLeaves) {
+        let own = self.levels[0][nearby.leaf];
+        let first = nodes.start;
+        for (after, bounds) in self.levels[level][nodes].iter().enumerate() {
+            if !nearby.is_complete || bounds.gap_squared(&own) > nearby.reach {
+                continue;
             }
-        } else if !self.beside(nearby.leaf).contains(&node) {
-            nearby.is_complete = nearby.leaves.len() < nearby.leaves.capacity();
-            if nearby.is_complete {
-                nearby.leaves.push(node as u32);
+            let node = first + after;
+            if level > 0 {
+                self.list(level - 1, self.children(level, node), nearby);
+            } else if !self.beside(nearby.leaf).contains(&node) {
+                nearby.is_complete = nearby.leaves.len() < nearby.leaves.capacity();
+                if nearby.is_complete {
+                    nearby.leaves.push(node as u32);
+                }
             }
         }
     }
@@ -129,25 +137,27 @@ impl<'a> Neighbors<'a> {
         node * FANOUT..((node + 1) * FANOUT).min(self.levels[level - 1].len())
     }
 
-    /// Scans all leaves of a node, except the `known` ones, where they may hold near points.
+    /// Scans all leaves of the nodes, except the `known` ones, where they may hold near points.
     fn descend(
         &self,
         level: usize,
-        node: usize,
+        nodes: Range<usize>,
         query: usize,
         known: &Range<usize>,
         best: &mut Best,
     ) {
-        let bounds = &self.levels[level][node];
-        if bounds.distance_squared(self.points.get(query)) > best.worst() {
-            return;
-        }
-        if level > 0 {
-            for child in self.children(level, node) {
-                self.descend(level - 1, child, query, known, best);
+        let center = self.points.get(query);
+        let first = nodes.start;
+        for (after, bounds) in self.levels[level][nodes].iter().enumerate() {
+            if bounds.distance_squared(center) > best.worst() {
+                continue;
             }
-        } else if !known.contains(&node) {
-            self.scan_leaf(node, query, best);
+            let node = first + after;
+            if level > 0 {
+                self.descend(level - 1, self.children(level, node), query, known, best);
+            } else if !known.contains(&node) {
+                self.scan_leaf(node, query, best);
+            }
         }
     }
 
@@ -200,7 +210,7 @@ struct Best {
 /// The leaves around the leaf of the last query.
 struct NearbyLeaves {
     leaf: usize,
-    /// The square of the largest distance from that leaf.
+    /// The square of the largest distance from that leaf, or -1 before they are listed.
     reach: f64,
     leaves: Vec<u32>,
     /// Whether there was room for all of them.

@@ -8,6 +8,7 @@ use core::fmt;
 
 use crate::base::allocation::{OutOfMemory, filled};
 use crate::base::error::Error;
+use crate::base::once::Once;
 use crate::cloud::blocks::Blocks;
 use crate::cloud::noise::Noise;
 use crate::cloud::part::KeptParts;
@@ -44,7 +45,6 @@ pub struct PointCloud {
     pub(crate) sequence: Sequence,
     /// The box of the present points.
     pub(crate) bounds: Bounds,
-    pub(crate) statistics: Statistics,
     pub(crate) blocks: Blocks,
     pub(crate) kept: Kept,
     non_finite: NonFinite,
@@ -57,9 +57,8 @@ pub struct PointCloud {
 pub(crate) struct Kept {
     pub parts: KeptParts<PointCloud>,
     pub voters: Option<Voters>,
-    /// The noise, from when it was asked first.
-    #[cfg(feature = "std")]
-    pub noise: std::sync::OnceLock<Arc<Noise>>,
+    pub statistics: Once<Statistics>,
+    pub noise: Once<Arc<Noise>>,
     pub survey: Option<Arc<Survey>>,
     /// The cloud of the points that a mask marks, with one byte for each index.
     #[cfg(feature = "lite")]
@@ -125,13 +124,11 @@ impl PointCloud {
         let curve = HilbertCurve::new(&bounds);
         let sequence = Sequence::sorted(positions, 0, len - skipped, &curve)?;
         progress(SORTED);
-        let statistics = Statistics::measure(&sequence.points, &bounds)?;
         let blocks = Blocks::around(&sequence.points)?;
         progress(1.0);
         Ok(Self {
             sequence,
             bounds,
-            statistics,
             blocks,
             kept: Kept::default(),
             non_finite,
@@ -291,25 +288,27 @@ impl PointCloud {
 
     /// The mean distance of a point from its 6 nearest other points, in the cloud's units. The
     /// automatic scales of [`Inversion::Exponential`] and [`Inversion::Looks`] are shares of it. It is
-    /// measured at up to 2048 distinct points, and is 0 where there are fewer than two.
+    /// measured at up to 2048 distinct points, and is 0 where there are fewer than two. With `std` it
+    /// is measured once, when it is asked for or when an automatic radius needs it.
     ///
     /// [`Inversion::Exponential`]: crate::Inversion::Exponential
     /// [`Inversion::Looks`]: crate::Inversion::Looks
-    #[must_use]
-    pub fn spacing(&self) -> f64 {
-        self.statistics.spacing
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`].
+    pub fn spacing(&self) -> Result<f64, Error> {
+        Ok(self.statistics()?.spacing)
     }
 
-    /// What a sample tells of the cloud's noise. With `std` it is measured once.
+    pub(crate) fn statistics(&self) -> Result<Statistics, OutOfMemory> {
+        let measure = || Statistics::measure(&self.sequence.points, &self.bounds);
+        self.kept.statistics.get(measure)
+    }
+
+    /// What a sample tells of the cloud's noise.
     pub(crate) fn known_noise(&self) -> Result<Arc<Noise>, OutOfMemory> {
-        #[cfg(feature = "std")]
-        if let Some(noise) = self.kept.noise.get() {
-            return Ok(noise.clone());
-        }
-        let noise = Arc::new(Noise::of(&self.sequence.points)?);
-        #[cfg(feature = "std")]
-        let noise = self.kept.noise.get_or_init(|| noise).clone();
-        Ok(noise)
+        let measure = || Ok(Arc::new(Noise::of(&self.sequence.points)?));
+        self.kept.noise.get(measure)
     }
 
     /// A cloud with the same indices at other, finite `positions`, one for each distinct point.
@@ -345,12 +344,10 @@ impl PointCloud {
     /// A cloud with the same indices whose points are those of `sequence`, in the box `bounds`.
     #[inline(never)]
     fn with_sequence(&self, sequence: Sequence, bounds: Bounds) -> Result<Self, OutOfMemory> {
-        let statistics = Statistics::measure(&sequence.points, &bounds)?;
         let blocks = Blocks::around(&sequence.points)?;
         Ok(Self {
             sequence,
             bounds,
-            statistics,
             blocks,
             kept: Kept::default(),
             ..*self
@@ -358,11 +355,9 @@ impl PointCloud {
     }
 
     /// Replaces the present points by those of `sequence`, in the box `bounds`. Nothing changes
-    /// where memory for their statistics or blocks is refused.
+    /// where memory for their blocks is refused.
     fn replace(&mut self, sequence: Sequence, bounds: Bounds) -> Result<(), OutOfMemory> {
-        let statistics = Statistics::measure(&sequence.points, &bounds)?;
         self.blocks = Blocks::around(&sequence.points)?;
-        self.statistics = statistics;
         self.sequence = sequence;
         self.bounds = bounds;
         self.kept = Kept::default();

@@ -9,6 +9,7 @@ use alloc::vec::Vec;
 
 use crate::base::allocation::{OutOfMemory, push, reserve, with_capacity};
 use crate::base::sort::{ordered, sort_by_numbers};
+use crate::cloud::hilbert::BITS;
 use crate::cloud::points::{Given, Points, Splice, is_finite};
 use crate::cloud::spatial::{HilbertCurve, Place};
 
@@ -35,12 +36,12 @@ impl Sequence {
         let mut previous = None;
         for &(_, index) in &keyed {
             let point = without_negative_zero(positions.get(index as usize));
-            if previous != Some(point) {
+            let is_new = previous != Some(point);
+            if is_new {
                 previous = Some(point);
                 points.push(point);
-                indices.open()?;
             }
-            indices.push(first_index + index)?;
+            indices.push(first_index + index, is_new)?;
         }
         indices.close()?;
         Ok(Self { points, indices })
@@ -64,17 +65,14 @@ impl Sequence {
         let mut copied = 0;
         for (k, &Splice { start, after }) in places.iter().enumerate() {
             for unchanged in copied..start {
-                indices.copy(self.indices.of(unchanged))?;
+                indices.copy(self.indices.of(unchanged).iter())?;
             }
-            indices.open()?;
             let present = (start..after).flat_map(|same| self.indices.of(same));
-            for &index in present.chain(new.indices.of(k)) {
-                indices.push(index)?;
-            }
+            indices.copy(present.chain(new.indices.of(k)))?;
             copied = after;
         }
         for unchanged in copied..self.points.len() {
-            indices.copy(self.indices.of(unchanged))?;
+            indices.copy(self.indices.of(unchanged).iter())?;
         }
         indices.close()?;
         Ok(Self {
@@ -92,12 +90,11 @@ impl Sequence {
             let mut stays = false;
             for &index in self.indices.of(k) {
                 if !removed(index) {
+                    indices.push(index, !stays)?;
                     if !stays {
                         stays = true;
                         kept.push(k as u32);
-                        indices.open()?;
                     }
-                    indices.push(index)?;
                 }
             }
         }
@@ -115,7 +112,7 @@ impl Sequence {
         for &place in places {
             let list = self.indices.of(place as usize);
             reserve(&mut indices.order, list.len())?;
-            indices.copy(list)?;
+            indices.copy(list.iter())?;
         }
         indices.close()?;
         Ok(Self {
@@ -132,7 +129,7 @@ impl Sequence {
         // Distinct points: every group there is one place here.
         let mut indices = Groups::with_capacity(self.indices.order.len())?;
         for &k in &sorted.indices.order {
-            indices.copy(self.indices.of(k as usize))?;
+            indices.copy(self.indices.of(k as usize).iter())?;
         }
         indices.close()?;
         Ok(Self {
@@ -157,12 +154,8 @@ impl Sequence {
         // Points may have come to lie on each other.
         let mut indices = Groups::with_capacity(self.indices.order.len())?;
         for k in 0..sorted.points.len() {
-            indices.open()?;
-            for &before in sorted.indices.of(k) {
-                for &index in self.indices.of(before as usize) {
-                    indices.push(index)?;
-                }
-            }
+            let before = sorted.indices.of(k).iter();
+            indices.copy(before.flat_map(|&place| self.indices.of(place as usize)))?;
         }
         indices.close()?;
         Ok(Self {
@@ -216,7 +209,6 @@ struct Groups {
     /// Where each list starts in `order`, with an end mark; empty where every
     /// list holds one index, and `order[k]` is list `k`.
     starts: Vec<u32>,
-    len: usize,
 }
 
 impl Groups {
@@ -227,46 +219,49 @@ impl Groups {
         Ok(Self {
             order,
             starts: Vec::new(),
-            len: 0,
         })
     }
 
-    /// Begins the next list.
-    #[inline(never)]
-    fn open(&mut self) -> Result<(), OutOfMemory> {
-        self.len += 1;
-        self.mark()
+    /// Adds an index to a new list, or to the last one.
+    fn push(&mut self, index: u32, is_first: bool) -> Result<(), OutOfMemory> {
+        let count = self.order.len();
+        self.order.push(index);
+        if is_first && self.starts.is_empty() {
+            return Ok(());
+        }
+        self.mark(is_first, count)
     }
 
-    /// Adds an index to the last list.
+    /// Begins a list that starts at `count`, or lets the last list go on there.
     #[inline(never)]
-    fn push(&mut self, index: u32) -> Result<(), OutOfMemory> {
-        if self.starts.is_empty() && self.order.len() == self.len {
-            // This is the first list with more than one index.
-            reserve(&mut self.starts, self.len)?;
-            self.starts.extend(0..self.len as u32);
+    fn mark(&mut self, is_first: bool, count: usize) -> Result<(), OutOfMemory> {
+        if is_first {
+            return push(&mut self.starts, count as u32);
         }
-        self.order.push(index);
+        if self.starts.is_empty() {
+            // This is the first list with more than one index.
+            reserve(&mut self.starts, count)?;
+            self.starts.extend(0..count as u32);
+        }
         Ok(())
     }
 
-    #[inline(never)]
-    fn copy(&mut self, list: &[u32]) -> Result<(), OutOfMemory> {
-        self.open()?;
-        list.iter().try_for_each(|&index| self.push(index))
+    /// Adds a list.
+    fn copy<'a>(&mut self, list: impl Iterator<Item = &'a u32>) -> Result<(), OutOfMemory> {
+        let mut is_first = true;
+        for &index in list {
+            self.push(index, is_first)?;
+            is_first = false;
+        }
+        Ok(())
     }
 
     /// Ends the last list.
     fn close(&mut self) -> Result<(), OutOfMemory> {
-        self.mark()
-    }
-
-    #[inline(never)]
-    fn mark(&mut self) -> Result<(), OutOfMemory> {
-        if !self.starts.is_empty() {
-            push(&mut self.starts, self.order.len() as u32)?;
+        if self.starts.is_empty() {
+            return Ok(());
         }
-        Ok(())
+        self.mark(true, self.order.len())
     }
 
     fn of(&self, k: usize) -> &[u32] {
@@ -279,22 +274,26 @@ impl Groups {
 }
 
 /// The finite positions in order: along the curve, then along the curve inside a cell, then
-/// by coordinates, then by index. Most positions that share a cell are equal.
+/// by coordinates, then by index. Most positions that share a cell are equal. Few positions of a
+/// surface share a cell of a coarser curve, so that most need no more than its shorter key.
 fn sort_along_curve(
     positions: Given,
     finite: usize,
     curve: &HilbertCurve,
 ) -> Result<Vec<(u64, u32)>, OutOfMemory> {
     let mut keyed: Vec<(u64, u32)> = with_capacity(finite)?;
+    // With so many levels, a surface of n points crosses some 4·n cells.
+    let levels = ((usize::BITS - finite.leading_zeros()).div_ceil(2) + 3).min(BITS);
     for (index, position) in positions.iter().enumerate() {
         if is_finite(position) {
-            keyed.push((curve.key(position), index as u32));
+            keyed.push((curve.coarse_key(position, levels), index as u32));
         }
     }
     let point = |index: u32| without_negative_zero(positions.get(index as usize));
-    sort_by_numbers(&mut keyed, 6, &|number, index| match number {
-        1 => curve.key_in_cell(point(index)),
-        axis @ 2..=4 => ordered(point(index)[axis - 2]),
+    sort_by_numbers(&mut keyed, 7, &|number, index| match number {
+        1 => curve.key(point(index)),
+        2 => curve.key_in_cell(point(index)),
+        axis @ 3..=5 => ordered(point(index)[axis - 3]),
         _ => u64::from(index),
     });
     Ok(keyed)

@@ -134,7 +134,8 @@ pub(crate) struct HilbertCurve {
     /// The corner in units; infinite along an axis where that overflows. All coordinates of
     /// such an axis are equal, and lie in cell 0.
     corner: [f64; 3],
-    unit: f64,
+    /// 1 ÷ unit, which is exact.
+    per_unit: f64,
 }
 
 /// The place of a point in the order: its key, then its key in the cell, then its
@@ -156,14 +157,20 @@ impl HilbertCurve {
         let unit = power_of_two_above(extent);
         Self {
             corner: bounds.min.map(|least| floor(least * 0.25 / unit) * unit),
-            unit,
+            per_unit: 1.0 / unit,
         }
     }
 
     /// The key of `p` among all points; equal points have equal keys.
     #[inline(never)]
     pub(crate) fn key(&self, p: [f64; 3]) -> u64 {
-        hilbert_key(self.cells(p).map(cell))
+        self.coarse_key(p, BITS)
+    }
+
+    /// The key of the cell of `p` in the coarser curve with so many levels.
+    #[inline(never)]
+    pub(crate) fn coarse_key(&self, p: [f64; 3], levels: u32) -> u64 {
+        hilbert_key(self.cells(p).map(cell), levels)
     }
 
     /// The key of `p` among the points of one cell, along a curve inside the cell. A single far
@@ -171,7 +178,7 @@ impl HilbertCurve {
     #[inline(never)]
     pub(crate) fn key_in_cell(&self, p: [f64; 3]) -> u64 {
         let inside = |cells: f64| cell((cells - f64::from(cell(cells))) * CELLS);
-        hilbert_key(self.cells(p).map(inside))
+        hilbert_key(self.cells(p).map(inside), BITS)
     }
 
     #[inline(never)]
@@ -185,7 +192,7 @@ impl HilbertCurve {
 
     /// How many cells `p` is away from the corner, along each axis.
     fn cells(&self, p: [f64; 3]) -> [f64; 3] {
-        let along = |axis: usize| (p[axis] * 0.25 - self.corner[axis]) / self.unit;
+        let along = |axis: usize| (p[axis] * 0.25 - self.corner[axis]) * self.per_unit;
         // One unit holds half of the cells.
         core::array::from_fn(|axis| along(axis) * (0.5 * CELLS))
     }

@@ -6,10 +6,7 @@ use alloc::vec::Vec;
 use crate::base::allocation::with_capacity;
 use crate::base::build::FULL;
 use crate::base::error::Error;
-use crate::cloud::blocks::Blocks;
-use crate::cloud::noise::Texture;
-use crate::cloud::points::Points;
-use crate::cloud::statistics::Statistics;
+use crate::cloud::point_cloud::PointCloud;
 use crate::flip::inversion::Flip;
 use crate::flip::kernel::Kernel;
 use crate::hull::visible_once;
@@ -70,28 +67,33 @@ impl RadiusInput<'_> {
     }
 }
 
-/// Turns the caller's choice into a radius for a cloud of these `points` and
-/// `statistics`, whose farthest point from `viewpoint` is at `farthest`.
-pub(crate) fn resolve(
-    choice: Radius,
-    points: &Points,
-    blocks: &Blocks,
-    statistics: &Statistics,
-    texture: &Texture,
-    viewpoint: [f64; 3],
-    farthest: f64,
-) -> Result<ChosenRadius, Error> {
-    let place = |p: &[f64]| [p[0], p[1], p[2]];
-    let input = RadiusInput {
-        viewpoint: &viewpoint,
-        centroid: &statistics.centroid,
-        automatic: automatic(statistics, texture, viewpoint, farthest),
-        farthest,
-        reach: &|p| {
-            let reach = blocks.farthest_distance(points, place(p));
-            reach.unwrap_or(f64::INFINITY)
-        },
-        seen: &|p, kernel| Ok(visible_once(points, &Flip::new(place(p), kernel))?),
-    };
-    input.resolve(choice)
+impl PointCloud {
+    /// Turns the caller's choice into a radius. The farthest point from `viewpoint` is at `farthest`.
+    pub(crate) fn chosen_radius(
+        &self,
+        choice: Radius,
+        viewpoint: [f64; 3],
+        farthest: f64,
+    ) -> Result<ChosenRadius, Error> {
+        if let Radius::Absolute(_) | Radius::Exponent(_) = choice {
+            // Nothing has to be measured.
+            return given(choice, farthest);
+        }
+        let statistics = &self.statistics()?;
+        let texture = &self.known_noise()?.texture;
+        let points = &self.sequence.points;
+        let place = |p: &[f64]| [p[0], p[1], p[2]];
+        let input = RadiusInput {
+            viewpoint: &viewpoint,
+            centroid: &statistics.centroid,
+            automatic: automatic(statistics, texture, viewpoint, farthest),
+            farthest,
+            reach: &|p| {
+                let reach = self.blocks.farthest_distance(points, place(p));
+                reach.unwrap_or(f64::INFINITY)
+            },
+            seen: &|p, kernel| Ok(visible_once(points, &Flip::new(place(p), kernel))?),
+        };
+        input.resolve(choice)
+    }
 }

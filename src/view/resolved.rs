@@ -4,11 +4,9 @@ use glam::DVec3;
 
 use crate::base::error::{Error, in_range};
 use crate::base::real::square_root;
-use crate::cloud::noise::Texture;
 use crate::cloud::point_cloud::PointCloud;
 use crate::flip::inversion::Flip;
 use crate::flip::kernel::Kernel;
-use crate::view::choice;
 use crate::view::options::{Exponential, Inversion, Options, Radius};
 use crate::view::radius::{self, ChosenRadius};
 
@@ -40,28 +38,22 @@ impl PointCloud {
         }
     }
 
-    /// What a choice of R takes from the sampled points.
-    pub(crate) fn texture_for(&self, choice: Radius) -> Result<Texture, Error> {
-        Ok(match choice {
-            Radius::Absolute(_) | Radius::Exponent(_) => Texture::PLAIN,
-            _ => self.known_noise()?.texture,
-        })
+    /// The inversion with numbers only.
+    pub(crate) fn resolved_inversion(&self, options: &Options) -> Result<Inversion, Error> {
+        let spacing = match options.inversion {
+            Inversion::Exponential(Exponential::Auto) => self.spacing()?,
+            _ => 0.0,
+        };
+        resolved_inversion(options, spacing)
     }
 
     pub(crate) fn view(&self, viewpoint: [f64; 3], options: &Options) -> Result<View, Error> {
         check_viewpoint(viewpoint)?;
-        let spacing = self.statistics.spacing;
-        let inversion = resolved_inversion(options, spacing)?;
+        let inversion = self.resolved_inversion(options)?;
         let points = &self.sequence.points;
         let farthest = self.blocks.farthest_distance(points, viewpoint)?;
         let (kernel, chosen) = resolved_kernel(inversion, options.radius, farthest, &|choice| {
-            let Self {
-                blocks, statistics, ..
-            } = self;
-            let texture = self.texture_for(choice)?;
-            choice::resolve(
-                choice, points, blocks, statistics, &texture, viewpoint, farthest,
-            )
+            self.chosen_radius(choice, viewpoint, farthest)
         })?;
         Ok(View {
             flip: Flip::new(viewpoint, kernel),

@@ -52,20 +52,20 @@ pub(super) struct CloudInfo {
 }
 
 impl CloudInfo {
-    fn new(handle: u32, cloud: &Cloud) -> Self {
+    fn new(handle: u32, cloud: &Cloud) -> Result<Self, Error> {
         let (length, skipped, spacing) = match cloud {
-            Cloud::Space(cloud) => (cloud.len(), cloud.skipped(), cloud.spacing()),
+            Cloud::Space(cloud) => (cloud.len(), cloud.skipped(), cloud.spacing()?),
             #[cfg(feature = "wasm")]
             Cloud::Hyper(cloud) => (cloud.len(), cloud.skipped(), cloud.spacing()),
             #[cfg(feature = "wasm")]
             Cloud::Horizon(_) => (0, 0, 0.0),
         };
-        Self {
+        Ok(Self {
             handle: f64::from(handle),
             length: length as f64,
             skipped: skipped as f64,
             spacing,
-        }
+        })
     }
 }
 
@@ -78,7 +78,7 @@ pub(super) fn created(made: Result<Cloud, Error>) -> Result<JsValue, JsValue> {
             if free.is_none() {
                 push(clouds, None)?;
             }
-            let info = CloudInfo::new(slot as u32, &cloud);
+            let info = CloudInfo::new(slot as u32, &cloud)?;
             clouds[slot] = Some(cloud);
             Ok(info)
         })
@@ -256,6 +256,6 @@ pub(super) fn change_any(
         let cloud = clouds.get_mut(handle as usize).and_then(Option::as_mut);
         let cloud = cloud.ok_or(Failure::DISPOSED)?;
         change(cloud)?;
-        Ok(CloudInfo::new(handle, cloud))
+        Ok(CloudInfo::new(handle, cloud)?)
     })
 }

@@ -71,7 +71,7 @@ fn the_cloud_gives_its_spacing() {
             } else {
                 mean(spacings(&points).into_iter())
             };
-            let off = (cloud.spacing() - expected).abs();
+            let off = (cloud.spacing().unwrap() - expected).abs();
             assert!(off <= 1e-9 * expected, "{}: {off}", kind.name);
         }
     }

@@ -48,7 +48,7 @@ fn an_answer_tells_its_looks_and_no_radius() {
         .collect();
     let cloud = PointCloud::new(&points).unwrap();
     let three = cloud.visible_from(FRONT, &looks(3)).unwrap();
-    let scale = cloud.spacing();
+    let scale = cloud.spacing().unwrap();
     assert_eq!(three.looks(), [0.28, 0.07, 0.02].map(|share| share * scale));
     assert_eq!(three.inversion(), Inversion::Looks(3));
     assert_eq!(

@@ -45,7 +45,7 @@ fn wrong(seen: &Visibility, is_visible: &dyn Fn(usize) -> bool) -> [f64; 2] {
 fn a_sphere_with_noise_is_seen_like_a_clean_one() {
     let count = 8000;
     let clean = sphere(count, 0.0);
-    let spacing = PointCloud::new(&clean).unwrap().spacing();
+    let spacing = PointCloud::new(&clean).unwrap().spacing().unwrap();
     let viewpoint = [0.3, -0.4, 3.0];
     let dot = |p: Place| p[0] * viewpoint[0] + p[1] * viewpoint[1] + p[2] * viewpoint[2];
     for (noise, lost_before) in [

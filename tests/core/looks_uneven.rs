@@ -64,7 +64,7 @@ fn the_scales_are_larger_where_points_leave_much_empty() {
             panic!("three looks have three scales")
         };
         assert!((tight / usual - 4.0).abs() < 1e-9 && (tight / loose - 14.0).abs() < 1e-9);
-        tight / (0.28 * cloud.spacing())
+        tight / (0.28 * cloud.spacing().unwrap())
     };
     assert_eq!(scale(&turned(60, 120)), 1.0);
     let rows = scale(&turned(16, 300));

@@ -34,7 +34,7 @@ fn a_cloud_that_is_prepared_twice_answers_alike() {
 #[test]
 fn the_spacing_is_told_in_every_dimension() {
     let flat = PointCloud::new(&[[0.0; 3], [3.0, 0.0, 0.0], [0.0, 4.0, 0.0]]).unwrap();
-    assert_eq!(flat.spacing(), 4.0);
+    assert_eq!(flat.spacing(), Ok(4.0));
     let corners = [[0.0; 4], [3.0, 0.0, 0.0, 0.0], [0.0, 0.0, 0.0, 4.0]].concat();
     assert_eq!(PointCloudNd::new(4, &corners).unwrap().spacing(), 4.0);
     let cloud = PointCloud::new(&[[0.0; 3]; 2]).unwrap();

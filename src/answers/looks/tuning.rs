@@ -77,7 +77,7 @@ impl Tuning {
         given: Option<f64>,
         farthest: f64,
     ) -> Result<Self, OutOfMemory> {
-        let statistics = &cloud.statistics;
+        let statistics = &cloud.statistics()?;
         let Some(survey) = survey else {
             return Ok(Self::plain(statistics));
         };
