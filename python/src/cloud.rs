@@ -1,7 +1,7 @@
 //! The cloud. What it can be asked is in `views`, `surveys` and `surfaces`.
 
 use hidden_point_removal as core;
-use hidden_point_removal::{Camera, CameraView, NonFinite, Options, Threads};
+use hidden_point_removal::{Camera, CameraView, NonFinite, Options, Seat, Threads};
 use numpy::{IntoPyArray, PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyType};
@@ -62,8 +62,19 @@ impl PointCloud {
         })?;
         views
             .iter()
-            .try_for_each(|view| warn_if_inverted(py, view))?;
+            .try_for_each(|view| warn_if_inverted(py, view.seems_inverted))?;
         Ok(views)
+    }
+
+    /// Warns of each camera whose pose was probably given the wrong way round.
+    pub fn warn_of_inverted(&self, py: Python<'_>, seats: &[Seat]) -> PyResult<()> {
+        for seat in seats {
+            if let Seat::Camera(camera) = seat {
+                let seems_inverted = self.cloud.ask(py, |cloud| cloud.seems_inverted(camera))?;
+                warn_if_inverted(py, seems_inverted)?;
+            }
+        }
+        Ok(())
     }
 
     /// Asks about as many places at once as there are threads, and reports the progress between. The cloud is free then, so

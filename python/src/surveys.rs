@@ -43,6 +43,7 @@ impl PointCloud {
             (counts.iter_mut().zip(more)).for_each(|(count, more): (&mut u32, u32)| *count += more);
             Ok(())
         })?;
+        self.warn_of_inverted(py, &viewpoints)?;
         Ok(counts.into_pyarray(py))
     }
 
@@ -91,6 +92,7 @@ impl PointCloud {
         let placed = self.ask(py, asked.how, |cloud| {
             choice.choose(cloud, &candidates, &asked.options)
         })?;
+        self.warn_of_inverted(py, &candidates)?;
         Ok(Placement::new(py, placed))
     }
 

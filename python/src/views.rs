@@ -85,9 +85,11 @@ impl PointCloud {
         options: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Visibility> {
         let viewpoints = camera::seats(viewpoints, "viewpoints")?;
-        self.view(py, options, |cloud, options| {
+        let seen = self.view(py, options, |cloud, options| {
             cloud.visible_from_any(&viewpoints, options)
-        })
+        })?;
+        self.warn_of_inverted(py, &viewpoints)?;
+        Ok(seen)
     }
 
     #[doc = asks!("visible_from_at_least($self, k, viewpoints, *")]
@@ -108,9 +110,11 @@ impl PointCloud {
     ) -> PyResult<Visibility> {
         let k = options::count(py, "k", k)?;
         let viewpoints = camera::seats(viewpoints, "viewpoints")?;
-        self.view(py, options, |cloud, options| {
+        let seen = self.view(py, options, |cloud, options| {
             cloud.visible_from_at_least(k, &viewpoints, options)
-        })
+        })?;
+        self.warn_of_inverted(py, &viewpoints)?;
+        Ok(seen)
     }
 
     #[doc = asks!("visible_from_camera($self, camera, *")]

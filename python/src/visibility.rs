@@ -63,7 +63,7 @@ impl Visibility {
     }
 
     pub fn of_camera(py: Python<'_>, view: core::CameraView) -> PyResult<Self> {
-        warn_if_inverted(py, &view)?;
+        warn_if_inverted(py, view.seems_inverted)?;
         let count = view.pixels.len();
         let pixels = view.pixels.into_flattened().into_pyarray(py);
         Ok(Self {
@@ -75,8 +75,8 @@ impl Visibility {
 }
 
 /// Warns if the pose of a camera was probably given the wrong way round.
-pub fn warn_if_inverted(py: Python<'_>, view: &core::CameraView) -> PyResult<()> {
-    if view.seems_inverted {
+pub fn warn_if_inverted(py: Python<'_>, seems_inverted: bool) -> PyResult<()> {
+    if seems_inverted {
         let category = py.get_type::<pyo3::exceptions::PyUserWarning>();
         PyErr::warn(py, &category, INVERTED, 1)?;
     }

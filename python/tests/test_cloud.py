@@ -241,9 +241,19 @@ def test_a_camera_sees_a_part_of_the_view_from_its_place():
     assert np.array_equal(other.indices, seen.indices)
     away = np.array([30, 0, 0])
     turned[:3, 3] += away
+    swapped, moved = camera(camera_to_world=np.linalg.inv(turned)), PointCloud(points + away)
     with pytest.warns(UserWarning, match="inverse pose"):
-        wrong = PointCloud(points + away).visible_from_camera(camera(camera_to_world=np.linalg.inv(turned)), exponent=3)
+        wrong = moved.visible_from_camera(swapped, exponent=3)
     assert wrong.count == 0
+    seats = [[40.0, 0, 0], swapped]
+    for ask in (
+        lambda: moved.coverage(seats),
+        lambda: moved.place_viewpoints(seats),
+        lambda: moved.visible_from_any(seats),
+        lambda: moved.visible_from_at_least(2, seats),
+    ):
+        with pytest.warns(UserWarning, match="inverse pose"):
+            ask()
     turned[:3, 3] -= away
     upright = cloud.visible_from_camera(camera(camera_to_world=turned @ np.diag([1, -1, -1, 1]), convention="opengl"), exponent=3)
     assert np.array_equal(upright.indices, seen.indices)

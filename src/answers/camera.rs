@@ -65,10 +65,14 @@ impl PointCloud {
         Ok(seen.with_indices(indices))
     }
 
-    /// Whether the image of a camera holds at most 1 % of the points that the image of the inverse
-    /// pose holds, and that one at least 2 % of all. Counted on a sample.
+    /// Whether the pose of a camera was probably given the wrong way round: its image holds at most 1 %
+    /// of the points that the image of the inverse pose holds, and that one at least 2 % of all. Counted
+    /// on a sample. Answers without [`CameraView::seems_inverted`], such as unions, do not say so.
+    ///
+    /// # Errors
+    /// [`Error::Camera`] and others for a camera that is refused.
     #[inline(never)]
-    pub(crate) fn seems_inverted(&self, camera: &Camera) -> Result<bool, Error> {
+    pub fn seems_inverted(&self, camera: &Camera) -> Result<bool, Error> {
         let inverse = Camera {
             pose: camera.pose.inverted(),
             ..*camera

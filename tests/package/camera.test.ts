@@ -1,5 +1,5 @@
 import { PerspectiveCamera, OrthographicCamera, Vector3 } from "three";
-import { expect, it } from "vitest";
+import { expect, it, vi } from "vitest";
 
 import type { Camera } from "hidden-point-removal";
 
@@ -143,6 +143,14 @@ it("a pose is taken both ways, and the wrong way is said", async () => {
     expect(answer.note).toBe(`camera 1: ${wrong.note}`);
   }
   expect(cloud.seenBy(bulk.slice(0, 1)).note).toBeUndefined();
+  for (const ask of [cloud, remote]) {
+    expect((await ask.visibleFromAny(bulk)).note).toBe(wrong.note);
+    expect((await ask.placeViewpoints(bulk, { count: 1 })).note).toBe(`camera 1: ${wrong.note}`);
+    const warn = vi.spyOn(console, "warn").mockReturnValue();
+    await ask.coverage(bulk);
+    expect(warn.mock.calls).toEqual([[`camera 1: ${wrong.note}`]]);
+    warn.mockRestore();
+  }
   await remote.dispose();
   const [x, y, z] = [11, 22, 40];
   expect(cloud.visibleFrom({ x, y, z }).indices).toEqual(cloud.visibleFrom([x, y, z]).indices);

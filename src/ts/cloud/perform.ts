@@ -79,7 +79,8 @@ const performers: { [K in QueryKind]: (target: Target, query: Query<K>) => Answe
     // Of several radii, the largest.
     const largest = views.reduce((a, b) => (b.radius > a.radius ? b : a));
     const evaluations = views.reduce((sum, view) => sum + view.evaluations, 0);
-    return { ...largest, evaluations, indices: atLeast(counts, k, target.spares) };
+    const inverted = views.some((view) => view.inverted);
+    return { ...largest, evaluations, inverted, indices: atLeast(counts, k, target.spares) };
   },
 
   visibleFromCamera: (target, { camera, settings, sector, towards = false }) => {

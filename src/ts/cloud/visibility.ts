@@ -35,6 +35,8 @@ export interface Visibility extends ChosenRadius {
    * vote. This is the caller's own copy.
    */
   readonly scores?: Float32Array;
+  /** What is probably wrong with a camera: its image holds next to none of the points, and that of the inverse pose many. */
+  readonly note?: string;
   /** One byte for each point of the cloud: 1 visible, 0 hidden. */
   mask(): Uint8Array;
   /**
@@ -71,8 +73,6 @@ export interface CameraView extends Visibility {
    * own copy.
    */
   readonly depths: Float32Array;
-  /** What is probably wrong: the image holds next to none of the points, and that of the inverse pose many. */
-  readonly note?: string;
 }
 
 /** The answer to one query. Its numbers are in JavaScript's own memory, independent of the wasm. */
@@ -85,6 +85,7 @@ export class VisibilityAnswer implements Visibility {
   readonly inversion: ResolvedInversion;
   readonly exact: boolean;
   declare readonly scores?: Float32Array;
+  declare readonly note?: string;
   readonly #cloudLength: number;
 
   static {
@@ -120,6 +121,9 @@ export class VisibilityAnswer implements Visibility {
     this.#cloudLength = answer.length;
     if (answer.scores !== undefined) {
       this.scores = answer.scores;
+    }
+    if (answer.inverted === true) {
+      this.note = INVERTED;
     }
   }
 
@@ -171,13 +175,9 @@ export class ReconstructionAnswer extends VisibilityAnswer implements Reconstruc
 export class CameraAnswer extends VisibilityAnswer implements CameraView {
   readonly pixels: Float32Array;
   readonly depths: Float32Array;
-  declare readonly note?: string;
 
   constructor(answer: Answers["visibleFromCamera"]) {
     super(answer);
-    if (answer.inverted) {
-      this.note = INVERTED;
-    }
     this.pixels = answer.pixels;
     this.depths = answer.depths;
   }

@@ -22,6 +22,8 @@ export interface Found extends ChosenRadius {
   length: number;
   /** Undefined unless the option `scores` asked for them. */
   scores?: Float32Array<ArrayBuffer>;
+  /** Whether the pose of a camera was probably given the wrong way round. */
+  inverted?: boolean;
 }
 
 /** The visible points in an image. */
@@ -30,8 +32,6 @@ export interface Photographed extends Found {
   depths: Float32Array<ArrayBuffer>;
   /** The directions of length 1 from the points to the camera, if the query asked for them. */
   towards?: Float32Array<ArrayBuffer>;
-  /** Whether the pose was probably given the wrong way round. */
-  inverted: boolean;
 }
 
 /** The answers, by kind of query. */

@@ -21,6 +21,8 @@ export interface Placement {
   seen: Uint32Array<ArrayBuffer>;
   /** The indices that no candidate sees, ascending. Removed and skipped points are among them. */
   unseen: Uint32Array<ArrayBuffer>;
+  /** What is probably wrong with a camera; see `Visibility.note`. */
+  note?: string;
 }
 
 /** Views are kept while they take no more memory than this, in bytes; others are asked again. */

@@ -16,7 +16,7 @@ export interface SeenBy {
   cameras: Uint32Array<ArrayBuffer>;
   pixels: Float32Array<ArrayBuffer>;
   towards: Float32Array<ArrayBuffer>;
-  /** What is probably wrong with a camera; see `CameraView.note`. */
+  /** What is probably wrong with a camera; see `Visibility.note`. */
   note?: string;
 }
 

@@ -1,4 +1,4 @@
-import type { Found, Photographed } from "./answers.js";
+import type { Found } from "./answers.js";
 import { describe, HprError } from "../base/errors.js";
 import { allocating } from "../base/memory.js";
 import { isNumberArray, plainNumbers } from "../base/typed-arrays.js";
@@ -174,7 +174,7 @@ export abstract class SurveyTask<Result = unknown> {
   take(number: number, found: Found): void {
     this.#asked.delete(number);
     this.add(number, found);
-    if ((found as Partial<Photographed>).inverted === true) {
+    if (found.inverted === true) {
       this.#inverted.add(number);
     }
     this.#taken += 1;
@@ -220,6 +220,10 @@ export class CoverageTask extends SurveyTask<Uint32Array> {
 
   /** @param length the length of the cloud, for no viewpoints */
   result(length: number): Uint32Array {
+    const { note } = this.noted;
+    if (note !== undefined) {
+      console.warn(note); // an array has no place for it
+    }
     return this.#counts ?? newCounts(length);
   }
 }
@@ -248,6 +252,6 @@ export class PlacementTask extends SurveyTask<Placement> {
 
   /** @param length the length of the cloud, for no candidates */
   result(length: number): Placement {
-    return (this.#choice ?? new GreedyChoice(length, 0, this.#wanted)).result;
+    return { ...(this.#choice ?? new GreedyChoice(length, 0, this.#wanted)).result, ...this.noted };
   }
 }

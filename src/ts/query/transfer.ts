@@ -33,7 +33,7 @@ export interface Transferred {
   channels: number;
   /** How many cameras gave a value, for each index. */
   seen: Uint32Array<ArrayBuffer>;
-  /** What is probably wrong with a camera; see `CameraView.note`. */
+  /** What is probably wrong with a camera; see `Visibility.note`. */
   note?: string;
 }
 
