@@ -8,7 +8,7 @@ const INTRODUCTION = `# The paper's figures
 \`npm run figures\` draws all figures again, with the demo page in Chromium, and measures the numbers of the captions.
 Names after \`--\` choose some (before-after, errors, halo, radius). Viewpoints are in
 the coordinates of the files. Some figures need data that is not in the repository (\`HPR_SHARED\`). Without this data, the
-errors against R and the surface of the bunny are not drawn again, and the first figure shows the small bunny from npm.
+errors against R are not drawn again, and the first figure shows the small bunny from npm.
 [FIDELITY.md](FIDELITY.md) has the errors in numbers.
 
 Of the paper's own clouds, only the dragon and the bunny are available here. David, Bimba, Igea, the hand, the carter, the oil
