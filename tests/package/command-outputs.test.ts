@@ -1,13 +1,11 @@
 // Outputs that are inputs, or each other; and names that would command a terminal.
 import { spawnSync } from "node:child_process";
 import { linkSync, lstatSync, mkdirSync, readdirSync, statSync, symlinkSync } from "node:fs";
-import { join } from "node:path";
 import { beforeEach, describe, expect, it } from "vitest";
 
-import { commandIn } from "./command-support";
+import { COMMAND, commandIn } from "./command-support";
 
 const { run, write, lines, place } = commandIn("command-outputs");
-const COMMAND = join(import.meta.dirname, "../../dist/cli/main.js");
 const POINTS = "0 0 1\n0 0 2\n";
 const ONE = ["0 0 2"];
 const FROM = ["--from", "0,0,5"];

@@ -13,29 +13,17 @@ import {
   rmSync,
   statSync,
   symlinkSync,
-  writeFileSync,
   writeSync,
 } from "node:fs";
-import { join } from "node:path";
 import { setTimeout as wait } from "node:timers/promises";
-import { beforeAll, describe, expect, it } from "vitest";
+import { describe, expect, it } from "vitest";
 
-const root = join(import.meta.dirname, "../..");
-const scratch = join(root, "target", "command-places");
-const inScratch = (name: string) => join(scratch, name);
-const COMMAND = join(root, "dist/cli/main.js");
+import { COMMAND, commandIn } from "./command-support";
 
-beforeAll(() => {
-  rmSync(scratch, { recursive: true, force: true });
-  mkdirSync(scratch, { recursive: true });
-  writeFileSync(inScratch("in.xyz"), "0 0 1\n0 0 2\n");
-});
+const { place, run, write } = commandIn("command-places");
+const scratch = place("");
 
-/** A command that waits for ever fails by the time limit; the test does not hang. */
-function run(...args: string[]) {
-  const { stderr, status } = spawnSync(process.execPath, [COMMAND, ...args], { cwd: scratch, timeout: 60_000 });
-  return { stderr: stderr.toString(), status };
-}
+write("in.xyz", "0 0 1\n0 0 2\n");
 
 const toFile = (output: string, input = "in.xyz") => run(input, "--from", "0,0,5", "-o", output);
 const made = (command: string, ...args: string[]) => spawnSync(command, args, { cwd: scratch }).status === 0;
@@ -61,7 +49,7 @@ describe.runIf(isUnix)("a path that is not a regular file", () => {
     expect(status, stderr).toBe(0);
     await once(reader, "close");
     expect(text).toBe("0 0 2\n");
-    expect(lstatSync(inScratch("pipe.xyz")).isFIFO()).toBe(true);
+    expect(lstatSync(place("pipe.xyz")).isFIFO()).toBe(true);
   });
 
   it("a FIFO that nobody reads is refused, and stays", () => {
@@ -71,66 +59,66 @@ describe.runIf(isUnix)("a path that is not a regular file", () => {
       1,
       "hidden-point-removal: lonely.xyz cannot be written: it is a FIFO that no program reads\n",
     ]);
-    expect(lstatSync(inScratch("lonely.xyz")).isFIFO()).toBe(true);
+    expect(lstatSync(place("lonely.xyz")).isFIFO()).toBe(true);
   });
 
   it("a device is written to, and stays", ({ skip }) => {
     // A second null device. Only root may make it, and not on every system.
     if (!made("mknod", "null.xyz", "c", "1", "3")) skip();
     try {
-      closeSync(openSync(inScratch("null.xyz"), "r+"));
+      closeSync(openSync(place("null.xyz"), "r+"));
     } catch {
       skip();
     }
-    symlinkSync("null.xyz", inScratch("link-to-null.xyz"));
+    symlinkSync("null.xyz", place("link-to-null.xyz"));
     for (const name of ["null.xyz", "link-to-null.xyz"]) {
       const { stderr, status } = toFile(name);
       expect(status, stderr).toBe(0);
-      expect(statSync(inScratch(name)).isCharacterDevice()).toBe(true);
+      expect(statSync(place(name)).isCharacterDevice()).toBe(true);
     }
-    expect(lstatSync(inScratch("link-to-null.xyz")).isSymbolicLink()).toBe(true);
+    expect(lstatSync(place("link-to-null.xyz")).isSymbolicLink()).toBe(true);
     expect(toFile("out.xyz", "null.xyz").stderr).toMatch(/null\.xyz cannot be read: it is not a regular file/);
   });
 
   it("a link to standard output is followed", () => {
-    symlinkSync("/dev/stdout", inScratch("stdout.xyz"));
+    symlinkSync("/dev/stdout", place("stdout.xyz"));
     const line = `"${process.execPath}" "${COMMAND}" in.xyz --from 0,0,5 -o stdout.xyz | cat`;
     expect(spawnSync("sh", ["-c", line], { cwd: scratch }).stdout.toString()).toBe("0 0 2\n");
-    expect(readlinkSync(inScratch("stdout.xyz"))).toBe("/dev/stdout");
+    expect(readlinkSync(place("stdout.xyz"))).toBe("/dev/stdout");
   });
 
   it("a disk is not written to", ({ skip }) => {
     // No disk has this number, so opening it would fail.
     if (!made("mknod", "disk.xyz", "b", "240", "250")) skip();
     expect(toFile("disk.xyz").stderr).toBe("hidden-point-removal: disk.xyz cannot be written: it is a disk\n");
-    expect(lstatSync(inScratch("disk.xyz")).isBlockDevice()).toBe(true);
+    expect(lstatSync(place("disk.xyz")).isBlockDevice()).toBe(true);
   });
 
   it("a link to a missing file makes that file", () => {
-    mkdirSync(inScratch("folder"));
-    symlinkSync("folder/new.xyz", inScratch("dangling.xyz"));
-    symlinkSync("dangling.xyz", inScratch("twice.xyz"));
+    mkdirSync(place("folder"));
+    symlinkSync("folder/new.xyz", place("dangling.xyz"));
+    symlinkSync("dangling.xyz", place("twice.xyz"));
     expect(toFile("twice.xyz").status).toBe(0);
-    expect(readlinkSync(inScratch("dangling.xyz"))).toBe("folder/new.xyz");
-    expect(readlinkSync(inScratch("twice.xyz"))).toBe("dangling.xyz");
-    expect(readFileSync(inScratch("folder/new.xyz"), "utf8")).toBe("0 0 2\n");
+    expect(readlinkSync(place("dangling.xyz"))).toBe("folder/new.xyz");
+    expect(readlinkSync(place("twice.xyz"))).toBe("dangling.xyz");
+    expect(readFileSync(place("folder/new.xyz"), "utf8")).toBe("0 0 2\n");
   });
 
   it("links that lead nowhere are refused, and stay", () => {
-    symlinkSync("round.xyz", inScratch("round.xyz"));
-    symlinkSync("missing/new.xyz", inScratch("astray.xyz"));
+    symlinkSync("round.xyz", place("round.xyz"));
+    symlinkSync("missing/new.xyz", place("astray.xyz"));
     expect(toFile("round.xyz").stderr).toMatch(/round\.xyz cannot be written: its links lead to one another/);
     expect(toFile("astray.xyz").stderr).toBe(
       "hidden-point-removal: astray.xyz cannot be written: no such file or directory\n",
     );
     for (const name of ["round.xyz", "astray.xyz"]) {
-      expect(lstatSync(inScratch(name)).isSymbolicLink(), name).toBe(true);
+      expect(lstatSync(place(name)).isSymbolicLink(), name).toBe(true);
     }
     expect(leftovers()).toEqual([]);
   });
 
   it("a directory is refused with a message that says so", () => {
-    mkdirSync(inScratch("directory.xyz"));
+    mkdirSync(place("directory.xyz"));
     expect(toFile("directory.xyz").stderr).toBe(
       "hidden-point-removal: directory.xyz cannot be written: it is a directory\n",
     );
@@ -140,7 +128,7 @@ describe.runIf(isUnix)("a path that is not a regular file", () => {
 describe.runIf(isUnix)("a command that is stopped", () => {
   /** Writes 40 MB, so that the command writes in several pieces. Lines of 400 kB keep the number of points small. */
   function writeLarge(): void {
-    const file = openSync(inScratch("large.xyz"), "w");
+    const file = openSync(place("large.xyz"), "w");
     for (let i = 0; i < 100; i++) writeSync(file, `0 ${i} 1 ${"word".repeat(100_000)}\n`);
     closeSync(file);
   }
@@ -159,7 +147,7 @@ describe.runIf(isUnix)("a command that is stopped", () => {
     let hit = 0;
     // The unfinished file exists for some milliseconds only. Some tries come too late.
     for (let tries = 0; tries < 20 && hit === 0; tries++) {
-      rmSync(inScratch("stopped.xyz"), { force: true });
+      rmSync(place("stopped.xyz"), { force: true });
       const child = spawn(process.execPath, [COMMAND, "large.xyz", "--from", "0,0,500", "-o", "stopped.xyz"], {
         cwd: scratch,
         stdio: "ignore",
@@ -170,7 +158,7 @@ describe.runIf(isUnix)("a command that is stopped", () => {
       expect(leftovers()).toEqual([]);
       if (child.signalCode === null) continue;
       expect(child.signalCode).toBe(signal);
-      if (!existsSync(inScratch("stopped.xyz"))) hit++;
+      if (!existsSync(place("stopped.xyz"))) hit++;
     }
     expect(hit).toBe(1);
   });
@@ -186,7 +174,7 @@ describe("--columns", () => {
   ];
 
   it.each(FILES)("chooses x, y and z in %s by names and by numbers, and says so", (name, content) => {
-    writeFileSync(inScratch(name), content);
+    write(name, content);
     for (const columns of ["b,c,d", "2,3,4", "B,C,4"]) {
       const { stderr, status } = run(name, "--from", "0,0,5", "-o", `out-${name}`, "--columns", columns);
       expect([status, stderr]).toEqual([
@@ -195,7 +183,7 @@ describe("--columns", () => {
           ? `1 of 2 points are visible; x, y and z are columns 2, 3, 4${columns.startsWith("2") ? "" : " (b, c, d)"}\n`
           : "1 of 2 points are visible; x, y and z are b, c, d\n",
       ]);
-      expect(readFileSync(inScratch(`out-${name}`), "utf8")).toMatch(/7[ ,]0[ ,]0[ ,]2\n$/);
+      expect(readFileSync(place(`out-${name}`), "utf8")).toMatch(/7[ ,]0[ ,]0[ ,]2\n$/);
     }
     const { stderr, status } = run(name, "--from", "0,0,5", "-o", `out-${name}`, "--columns", "b,c,w");
     expect(status).toBe(1);

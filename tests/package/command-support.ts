@@ -4,6 +4,7 @@ import { mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 
 const root = join(import.meta.dirname, "../..");
+export const COMMAND = join(root, "dist/cli/main.js");
 
 export function commandIn(folder: string) {
   const scratch = join(root, "target", folder);
@@ -18,8 +19,10 @@ export function commandIn(folder: string) {
     read: (name: string) => readFileSync(place(name)),
     lines: (name: string) => readFileSync(place(name), "utf8").split("\n").slice(0, -1),
     run: (...args: string[]) => {
-      const { stdout, stderr, status } = spawnSync(process.execPath, [join(root, "dist/cli/main.js"), ...args], {
+      const { stdout, stderr, status } = spawnSync(process.execPath, [COMMAND, ...args], {
         cwd: scratch,
+        // A command that waits for ever fails; the test does not hang.
+        timeout: 60_000,
       });
       return { stdout, stderr: stderr.toString(), status };
     },

@@ -1,48 +1,35 @@
 // The command for files, run as npx runs it.
-import { spawnSync } from "node:child_process";
-import { existsSync, mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { existsSync, mkdirSync, readdirSync, readFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { join } from "node:path";
 import { gunzipSync } from "node:zlib";
 import { PCDLoader } from "three/addons/loaders/PCDLoader.js";
 import { PLYLoader } from "three/addons/loaders/PLYLoader.js";
-import { beforeAll, describe, expect, it } from "vitest";
+import { describe, expect, it } from "vitest";
 
 import { Progress } from "../../src/ts/cli/progress";
 import { literals, packed } from "../files/valid";
+import { commandIn } from "./command-support";
 import { bumpySphere, readyPackage } from "./support";
 
 const require = createRequire(import.meta.url);
 const { PointCloud } = await readyPackage();
 const root = join(import.meta.dirname, "../..");
-const scratch = join(root, "target", "command");
-const inScratch = (name: string) => join(scratch, name);
+const { place, read, run, write } = commandIn("command");
 
 const COUNT = 2000;
 const sphere = bumpySphere(7, COUNT);
 const VIEWPOINT = [-1, 2, 5];
 const visible = [...new PointCloud(sphere).visibleFrom(VIEWPOINT, { looks: 3 }).indices];
 
-beforeAll(() => {
-  rmSync(scratch, { recursive: true, force: true });
-  mkdirSync(scratch, { recursive: true });
-});
-
-function run(...args: string[]) {
-  const { stdout, stderr, status } = spawnSync(process.execPath, [join(root, "dist/cli/main.js"), ...args], {
-    cwd: scratch,
-  });
-  return { stdout, stderr: stderr.toString(), status };
-}
-
 /** Filters a file, and returns the contents of the output file. */
 function filtered(name: string, content: Uint8Array | string, ...options: string[]): Buffer {
-  writeFileSync(inScratch(name), content);
+  write(name, content);
   const output = `out-${name}`;
   const { stderr, status } = run(name, "--from", VIEWPOINT.join(","), "-o", output, ...options);
   expect(status, stderr).toBe(0);
   expect(stderr).toMatch(/^\d+ of \d+ points are visible/);
-  return readFileSync(inScratch(output));
+  return read(output);
 }
 
 const bytes = (...parts: (string | Uint8Array)[]) =>
@@ -190,7 +177,7 @@ describe("tables keep their lines", () => {
 
 describe("missing points, wrong files and wrong usage", () => {
   it("points without a position are never visible, and are counted", () => {
-    writeFileSync(inScratch("holes.xyz"), "0 0 1\nnan nan nan\n1 0 0\n0 inf 2\n0 0 2\n");
+    write("holes.xyz", "0 0 1\nnan nan nan\n1 0 0\n0 inf 2\n0 0 2\n");
     const { stdout, stderr, status } = run("holes.xyz", "--from", "0,0,5", "-o", "-");
     expect([stdout.toString(), status]).toEqual(["1 0 0\n0 0 2\n", 0]);
     expect(stderr).toBe("2 of 5 points are visible; x, y and z are columns 1, 2, 3; 2 without a position\n");
@@ -229,18 +216,18 @@ describe("missing points, wrong files and wrong usage", () => {
     ["broken.xyz", /line 2 is not a point, it has 2 columns and lines above have 3: "1 2"/, "1 2 3\n1 2\n"],
   ];
   it.each(problems)("%s ends with 1, says %s and leaves nothing behind", (name, says, content) => {
-    writeFileSync(inScratch(name), content);
+    write(name, content);
     const { stderr, status } = run(name, "--from", "0,0,5", "-o", `out-${name}`);
     expect(status).toBe(1);
     expect(stderr).toMatch(says);
     expect(stderr).toContain(name);
     expect(stderr.trim().split("\n")).toHaveLength(1);
-    expect(existsSync(inScratch(`out-${name}`))).toBe(false);
+    expect(existsSync(place(`out-${name}`))).toBe(false);
   });
 
   it("a missing file or directory ends with 1", () => {
-    writeFileSync(inScratch("one.xyz"), "0 0 1\n");
-    mkdirSync(inScratch("missing.d.xyz"));
+    write("one.xyz", "0 0 1\n");
+    mkdirSync(place("missing.d.xyz"));
     for (const [input, output] of [
       ["missing.xyz", "out.xyz"],
       ["one.xyz", "missing/out.xyz"],
@@ -250,7 +237,7 @@ describe("missing points, wrong files and wrong usage", () => {
       const { stderr, status } = run(input, "--from", "0,0,5", "-o", output);
       expect([status, stderr.includes("missing")]).toEqual([1, true]);
     }
-    expect(readdirSync(scratch).filter((name) => name.endsWith(".part"))).toEqual([]);
+    expect(readdirSync(place("")).filter((name) => name.endsWith(".part"))).toEqual([]);
   });
 });
 

@@ -3,8 +3,9 @@ import { init, PointCloud } from "hidden-point-removal";
 import { HiddenPointNodesFilter } from "hidden-point-removal/nodes";
 import { HiddenPointFilter } from "hidden-point-removal/three";
 import * as THREE from "three";
-import { afterEach, beforeAll, describe, expect, it } from "vitest";
+import { beforeAll, describe, expect, it } from "vitest";
 
+import { BOTH, cameraAt, filters, pointsOf } from "./both-filters";
 import { bumpySphere } from "./support";
 import { drawn } from "./three-support";
 
@@ -17,38 +18,12 @@ beforeAll(async () => {
   local = new PointCloud(many);
 });
 
-const filters: { dispose(): void }[] = [];
-
-afterEach(() => {
-  for (const filter of filters.splice(0)) filter.dispose();
-});
-
-function pointsOf(positions: Float32Array) {
-  const geometry = new THREE.BufferGeometry();
-  geometry.setAttribute("position", new THREE.BufferAttribute(positions, 3));
-  const points = new THREE.Points(geometry, new THREE.PointsMaterial());
-  const group = new THREE.Group().add(points);
-  return { geometry, points, group };
-}
-
-function cameraAt(x: number, y: number, z: number): THREE.PerspectiveCamera {
-  const camera = new THREE.PerspectiveCamera();
-  camera.position.set(x, y, z);
-  return camera;
-}
-
 const frame = () => new Promise((resolve) => setTimeout(resolve, 4));
 const seenFrom = (camera: THREE.Camera, options = {}) => [
   ...local.visibleFrom(camera.position.toArray(), options).indices,
 ];
 
-describe.each([
-  ["HiddenPointFilter", (points: THREE.Points, options: object) => new HiddenPointFilter(points, options)],
-  [
-    "HiddenPointNodesFilter",
-    (points: THREE.Points, options: object) => new HiddenPointNodesFilter(points.parent!, options),
-  ],
-] as const)("%s", (_, make) => {
+describe.each(BOTH)("%s", (_, make) => {
   function filterFor(points: THREE.Points, options: object = {}) {
     const filter = make(points, { settle: false, ...options });
     filters.push(filter);

@@ -2,10 +2,10 @@
 import type threads from "node:worker_threads";
 import { init, PointCloud } from "hidden-point-removal";
 import { HiddenPointNodesFilter } from "hidden-point-removal/nodes";
-import { HiddenPointFilter } from "hidden-point-removal/three";
 import * as THREE from "three";
 import { afterEach, beforeAll, beforeEach, describe, expect, it, vi } from "vitest";
 
+import { BOTH, filters, pointsOf } from "./both-filters";
 import { OriginalWorker, replaceWorker } from "./node-workers";
 import { bumpySphere, problemOf } from "./support";
 import { drawn } from "./three-support";
@@ -14,30 +14,7 @@ const sphere = bumpySphere(1, 3000);
 
 beforeAll(() => init());
 
-/** A cloud in a group of a scene, and a camera. One filter takes the points, the other takes the group. */
-function pointsOf(positions = sphere) {
-  const geometry = new THREE.BufferGeometry();
-  geometry.setAttribute("position", new THREE.BufferAttribute(positions, 3));
-  const points = new THREE.Points(geometry, new THREE.PointsMaterial());
-  const camera = new THREE.PerspectiveCamera();
-  camera.position.set(0, 0, 5);
-  new THREE.Scene().add(new THREE.Group().add(points), camera);
-  return { geometry, points, camera };
-}
-
-const filters: { dispose(): void }[] = [];
-
-afterEach(() => {
-  for (const filter of filters.splice(0)) filter.dispose();
-});
-
-describe.each([
-  ["HiddenPointFilter", (points: THREE.Points, options: object) => new HiddenPointFilter(points, options)],
-  [
-    "HiddenPointNodesFilter",
-    (points: THREE.Points, options: object) => new HiddenPointNodesFilter(points.parent!, options),
-  ],
-] as const)("%s", (_, make) => {
+describe.each(BOTH)("%s", (_, make) => {
   function filterFor(points: THREE.Points, options: object = {}) {
     const filter = make(points, { settle: false, ...options });
     filters.push(filter);
@@ -76,7 +53,7 @@ describe.each([
 
     it("recovers from several deaths in a row without a report", async () => {
       dying = 3;
-      const { points, camera, geometry } = pointsOf();
+      const { points, camera, geometry } = pointsOf(sphere);
       const { filter, errors } = filterFor(points);
       filter.update(camera);
       await expect.poll(() => drawn(geometry)).toEqual(visibleFrom(camera));
@@ -86,7 +63,7 @@ describe.each([
 
     it("reports once that its workers keep dying, and tries again from another viewpoint", async () => {
       dying = 4;
-      const { points, camera, geometry } = pointsOf();
+      const { points, camera, geometry } = pointsOf(sphere);
       const { filter, errors } = filterFor(points);
       filter.update(camera);
       await expect.poll(() => errors).toHaveLength(1);
@@ -110,7 +87,7 @@ describe.each([
   });
 
   it("reports an error without a listener as an unhandled rejection", async () => {
-    const { points, camera } = pointsOf();
+    const { points, camera } = pointsOf(sphere);
     const { filter, errors, listener } = filterFor(points, { radius: 1 });
     filter.removeEventListener("error", listener);
     if (filter instanceof HiddenPointNodesFilter) {
@@ -172,7 +149,7 @@ describe.each([
       (points) => replaced(loose(points), "material", new THREE.ShaderMaterial()),
     ],
   ])("refuses %s once while it filters, and goes on after the value is restored", async (_what, code, words, spoil) => {
-    const { points, camera, geometry } = pointsOf();
+    const { points, camera, geometry } = pointsOf(sphere);
     const { filter, errors } = filterFor(points, { worker: false, mode: "dim" });
     const update = async () => {
       filter.update(camera);

@@ -3,8 +3,9 @@ import { init, PointCloud } from "hidden-point-removal";
 import { HiddenPointNodesFilter } from "hidden-point-removal/nodes";
 import { HiddenPointFilter, type HiddenPointFilterOptions } from "hidden-point-removal/three";
 import * as THREE from "three";
-import { afterEach, beforeAll, describe, expect, it } from "vitest";
+import { beforeAll, describe, expect, it } from "vitest";
 
+import { cameraAt, filters } from "./both-filters";
 import { bumpySphere, problemOf } from "./support";
 
 const COUNT = 3000;
@@ -17,23 +18,11 @@ beforeAll(async () => {
   local = new PointCloud(sphere);
 });
 
-const filters: { dispose(): void }[] = [];
-
-afterEach(() => {
-  for (const filter of filters.splice(0)) filter.dispose();
-});
-
 /** The points of the sphere from one index to another. */
 function pointsOf(from = 0, to = COUNT): THREE.Points<THREE.BufferGeometry, THREE.PointsMaterial> {
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute("position", new THREE.BufferAttribute(sphere.slice(3 * from, 3 * to), 3));
   return new THREE.Points(geometry, new THREE.PointsMaterial({ opacity: 0.8 }));
-}
-
-function cameraAt(x: number, y: number, z: number): THREE.PerspectiveCamera {
-  const camera = new THREE.PerspectiveCamera();
-  camera.position.set(x, y, z);
-  return camera;
 }
 
 const answerFrom = (camera: THREE.Camera, options: object = LOOKS) =>
