@@ -1,90 +1,74 @@
-// The tables of settings and keys in the documents must match the page. After a change of the page,
-// `HPR_WRITE=1 npx vitest run tests/package/page-documents.test.ts` updates the tables.
-import { readFileSync, writeFileSync } from "node:fs";
+// The tables of settings and keys in the documents must match the page.
+import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { expect, test } from "vitest";
 import { ELEMENT_KEYS, KEYS, type Key, shownKeys } from "../../www/controls/keys.js";
 import { ATTRIBUTE_NAMES, rowOf } from "../../www/element/attributes.js";
-import { ATTRIBUTE_WORDS } from "../../www/element/words.js";
 import { SAMPLES } from "../../www/samples/samples.js";
-import { type AnyParameter, PARAMETERS, type Setting, type SettingName, SETTINGS } from "../../www/settings/table.js";
-import { PARAMETER_WORDS, SETTING_WORDS } from "../../www/settings/words.js";
+import { type AnyParameter, PARAMETERS, type Setting, SETTINGS } from "../../www/settings/table.js";
 import { root } from "../root.js";
 
 type AnyRow = Setting<never>;
 
-const settings = Object.entries(SETTINGS) as unknown as [SettingName, AnyRow][];
+const settings = Object.entries(SETTINGS) as unknown as [string, AnyRow][];
 const parameters = Object.entries(PARAMETERS) as unknown as [keyof typeof PARAMETERS, AnyParameter][];
 
-function table(head: readonly string[], rows: readonly (readonly string[])[]): string {
-  const line = (cells: readonly string[]) => `| ${cells.join(" | ")} |`;
-  return [line(head), `|${"---|".repeat(head.length)}`, ...rows.map(line)].join("\n");
+/** The rows of a table in a document, after its head. */
+function rowsOf(document: string, name: string): string[][] {
+  const whole = readFileSync(join(root, document), "utf8");
+  const from = whole.indexOf(`<!-- ${name} -->`);
+  expect(from).toBeGreaterThan(0);
+  const lines = whole.slice(from).split("\n\n")[1]!.trim().split("\n").slice(2);
+  return lines.map((line) =>
+    line
+      .slice(1, -1)
+      .split("|")
+      .map((cell) => cell.trim()),
+  );
 }
 
-/** The words for a missing setting. If there are no words, its usual value. */
-function usualOf(name: SettingName): string {
-  const { write, usual } = SETTINGS[name] as unknown as AnyRow;
-  return SETTING_WORDS[name].without ?? `\`${write(usual)}\``;
+/** What stands in a table is sentences of the document, but for names, values, and usual values. */
+function compare(rows: string[][], expected: { name: string; values?: string; usual?: string }[]): void {
+  expect(rows.map(([name]) => name)).toEqual(expected.map(({ name }) => `\`${name}\``));
+  for (const [i, { name, values, usual }] of expected.entries()) {
+    const [, is, written, without = ""] = rows[i]!;
+    expect(is, name).not.toBe("");
+    if (values !== undefined) expect(written, name).toBe(values);
+    if (usual !== undefined && /^`[^`]*`$/.test(without)) expect(without, name).toBe(`\`${usual}\``);
+  }
 }
 
-const BLOCKS: Record<string, { document: string; text: () => string }> = {
-  "parameters of the address": {
-    document: "docs/ADDRESS.md",
-    text: () => {
-      const names = SAMPLES.map(({ name }) => name).join(", ");
-      const clouds = [
-        ["`sample`", "a cloud of the page", names, SAMPLES[0]!.name],
-        ["`src`", "a file on the web; CORS must allow it", "an address", ""],
-      ];
-      const others = parameters.map(([name, { values }]) => {
-        const { is, without = "" } = PARAMETER_WORDS[name];
-        return [`\`${name}\``, is, values, without];
-      });
-      const rows = settings.map(([name, { parameter, values }]) => [
-        `\`${parameter}\``,
-        SETTING_WORDS[name].is,
-        values,
-        usualOf(name),
-      ]);
-      return table(["parameter", "sets", "values", "without it"], [...clouds, ...others, ...rows]);
-    },
-  },
-  "attributes of the element": {
-    document: "docs/EMBED.md",
-    text: () =>
-      table(
-        ["attribute", "is", "values", "without it"],
-        ATTRIBUTE_NAMES.map((name) => {
-          const { written, setting } = rowOf(name);
-          const { is, without = setting ? usualOf(setting) : "" } = ATTRIBUTE_WORDS[name];
-          return [`\`${name}\``, is, written?.values ?? "", without];
-        }),
-      ),
-  },
-  "keys of the element": {
-    document: "docs/EMBED.md",
-    text: () =>
-      table(
-        ["keys", "do"],
-        ELEMENT_KEYS.map((action) => {
-          const { does, shift }: Key = KEYS[action];
-          const shown = shownKeys(action).map((key) => `\`${key}\``);
-          return [shown.join(shift ? " + " : " "), does!];
-        }),
-      ),
-  },
-};
+const usualOf = ({ write, usual }: AnyRow) => write(usual);
 
-test.for(Object.keys(BLOCKS))("the %s in the document match the page", (name) => {
-  const { document, text } = BLOCKS[name]!;
-  const [begin, end] = [`<!-- ${name} -->\n\n`, `\n\n<!-- end -->`];
-  const file = join(root, document);
-  const whole = readFileSync(file, "utf8");
-  const from = whole.indexOf(begin) + begin.length;
-  const to = whole.indexOf(end, from);
-  expect(whole).toContain(begin);
-  if (process.env["HPR_WRITE"]) writeFileSync(file, whole.slice(0, from) + text() + whole.slice(to));
-  else expect(whole.slice(from, to)).toBe(text());
+test("the parameters of the address in the document are the page's", () => {
+  compare(rowsOf("docs/ADDRESS.md", "parameters of the address"), [
+    { name: "sample", values: SAMPLES.map(({ name }) => name).join(", ") },
+    { name: "src" },
+    ...parameters.map(([name, { values }]) => ({ name, values })),
+    ...settings.map(([, row]) => ({ name: row.parameter, values: row.values, usual: usualOf(row) })),
+  ]);
+});
+
+test("the attributes of the element in the document are the element's", () => {
+  const rows = rowsOf("docs/EMBED.md", "attributes of the element");
+  compare(
+    rows,
+    ATTRIBUTE_NAMES.map((name) => {
+      const { written, setting } = rowOf(name);
+      const usual = setting && usualOf(SETTINGS[setting] as unknown as AnyRow);
+      return { name, values: written?.values ?? "", ...(usual !== undefined && { usual }) };
+    }),
+  );
+  for (const { name } of SAMPLES) expect(rows[1]![1]).toContain(name);
+});
+
+test("the keys of the element in the document are the element's", () => {
+  const keys = ELEMENT_KEYS.map((action) => {
+    const { does, shift }: Key = KEYS[action];
+    const shown = shownKeys(action).map((key) => `\`${key}\``);
+    return [shown.join(shift ? " + " : " "), does];
+  });
+  expect(rowsOf("docs/EMBED.md", "keys of the element")).toEqual(keys);
 });
 
 test("every setting has a parameter of its own, and its usual value can be written and read again", () => {

@@ -3,7 +3,7 @@ import { type Action, type Key, KEYS, SHEET, shownKeys, spokenKeys } from "../co
 import { FORMATS, listed, OTHER_ENDINGS } from "../settings/formats.ts";
 import { type Slider, SLIDERS } from "../settings/sliders.ts";
 import { type Setting, type SettingName, SETTINGS } from "../settings/table.ts";
-import { SETTING_WORDS } from "../settings/words.ts";
+import { LABELS } from "../settings/labels.ts";
 
 /**
  * Fills index.html from the tables of settings, keys and formats:
@@ -44,8 +44,7 @@ export function filled(page: string): string {
 
 function choices(name: string): string {
   const { usual, write } = known(rows()[name], name);
-  const { labels } = SETTING_WORDS[name as SettingName];
-  return Object.entries(known(labels, name))
+  return Object.entries(known(LABELS[name as SettingName], name))
     .map(([value, label]) => {
       const checked = value === write(usual) ? " checked" : "";
       return `<label><input type="radio" name="${name}" value="${value}"${checked} />${label}</label>`;

@@ -15,7 +15,7 @@ export interface Attribute {
   ofSource?: true;
 }
 
-/** The one table of attributes. The table in the document is made from it and from words.ts. */
+/** The one table of attributes. The table in docs/EMBED.md is compared with it. */
 export const ATTRIBUTES = {
   src: { property: "text", ofSource: true },
   sample: { property: "text", ofSource: true },

@@ -16,8 +16,8 @@ import { FIELD_OF_VIEW, MAX_POINTS, MOST_EXPONENT, POINT_SIZE, SMALL } from "./l
 import type { HiddenMode, Inversion, Looks, Radius, ThemeChoice, Viewpoint } from "./types.ts";
 
 /*
- * The one table of settings. The address, the panel, the element's attributes and, with words.ts, the tables in the
- * documents are made from it. A new setting is one row here with its words, and its control in index.html.
+ * The one table of settings. The address, the panel and the element's attributes are made from it, and the tables in the
+ * documents are compared with it. A new setting is one row here, and its control in index.html.
  */
 
 /** A parameter of the page's address. */
