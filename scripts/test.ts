@@ -10,8 +10,8 @@ import { command } from "./lib/command.js";
 import { collected, print } from "./lib/output.js";
 import { Problem } from "./lib/run.js";
 
-/** Most checks use one core. The others use two, but half of the time they wait for a browser. */
-const AT_ONCE = 2;
+/** Two cores are busy with three checks: those with a browser wait half of the time, others use one core for long. */
+const AT_ONCE = 3;
 
 const rows: string[] = [];
 const outcomes = new Map<string, Outcome>();

@@ -6,7 +6,7 @@ import { inRoot } from "../lib/paths.js";
 import { mustRun, say } from "../lib/run.js";
 import { unlessUnchanged } from "../lib/stamp.js";
 import { WASM_TARGET } from "../setup/rust.js";
-import { makeGlue } from "../setup/tools.js";
+import { makeGlue, setUpWasmTools } from "../setup/tools.js";
 import { easeGlue, numberImports } from "./glue.js";
 import { optimize } from "./optimize.js";
 
@@ -50,7 +50,8 @@ export async function buildWasm(): Promise<void> {
 
 async function buildModule(folder: string, options: string[]): Promise<void> {
   const args = ["build", "--locked", "--release", "--package", "hpr", "--target", WASM_TARGET, ...options];
-  await mustRun("cargo", args, FAILED, { env: { ...LEVEL, RUSTFLAGS: await wasmFlags() } });
+  const env = { ...LEVEL, RUSTFLAGS: await wasmFlags() };
+  await Promise.all([setUpWasmTools(), mustRun("cargo", args, FAILED, { env })]);
   const out = inRoot("target/glue", folder);
   await makeGlue(inRoot("target", WASM_TARGET, "release/hpr.wasm"), out, FAILED);
   await optimize(join(out, "hpr_bg.wasm"), FAILED);

@@ -1,10 +1,9 @@
 import { build } from "../build/build.js";
-import { setUpForBuild, setUpForChecks } from "../setup/setup.js";
+import { setUpForChecks } from "../setup/setup.js";
 import type { Check } from "./check.js";
 import { PASS } from "./check.js";
 
 export const SETUP = "Set-up: Rust";
-export const TOOLS = "Set-up: wasm-bindgen";
 export const BUILD = "Build: WebAssembly, npm package, demo page";
 
 /** Checks that belong to no part. Other checks need them. */
@@ -18,18 +17,9 @@ export const groundwork: Check[] = [
     },
   },
   {
-    title: TOOLS,
-    part: undefined,
-    needs: [SETUP],
-    run: async () => {
-      await setUpForBuild();
-      return PASS;
-    },
-  },
-  {
     title: BUILD,
     part: undefined,
-    needs: [TOOLS],
+    needs: [SETUP],
     locks: "wasm",
     run: async () => {
       await build();

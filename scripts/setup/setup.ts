@@ -1,20 +1,16 @@
 import { setUpLinker } from "./linker.js";
 import { BARE_TARGET, WASM_TARGET, setUpComponents, setUpRust, setUpTarget } from "./rust.js";
-import { setUpWasmTools } from "./tools.js";
 
 /** Installs everything that a build needs and that is missing. */
 export async function setUpForBuild(): Promise<void> {
   await setUpRust();
   await setUpLinker();
   await setUpTarget(WASM_TARGET);
-  await setUpWasmTools();
 }
 
-/** Installs what the Rust checks need besides the tools of a build. (The page's tests set up the browser.) */
+/** Installs what the Rust checks need besides that. (The page's tests set up the browser.) */
 export async function setUpForChecks(): Promise<void> {
-  await setUpRust();
-  await setUpLinker();
-  await setUpTarget(WASM_TARGET);
+  await setUpForBuild();
   await setUpTarget(BARE_TARGET);
   await setUpComponents();
 }
