@@ -20,7 +20,7 @@ use scans::{bunny, dragon};
 
 /// Checks `samples` visible points and as many hidden points. Also checks every point that is
 /// on one of the proving faces up to rounding.
-fn check(points: &[[f32; 3]], samples: usize) {
+fn check(points: &[[f32; 3]], exponents: &[f64], samples: usize) {
     let cloud = PointCloud::new(points).expect("an acceptable cloud");
     let wide: Vec<[f64; 3]> = points.iter().map(|p| p.map(f64::from)).collect();
     let low: [f64; 3] =
@@ -37,7 +37,7 @@ fn check(points: &[[f32; 3]], samples: usize) {
         [1.0, 0.5, 0.5],
     ] {
         let viewpoint = core::array::from_fn(|i| low[i] + (high[i] - low[i]) * place[i]);
-        for exponent in [2.0, 3.0, 4.0] {
+        for &exponent in exponents {
             let title = format!(
                 "{} points from {viewpoint:?}, exponent {exponent}",
                 points.len()
@@ -104,25 +104,25 @@ fn check_view(title: &str, q: &[[f64; 3]], mask: &[u8], samples: usize) {
 
 #[test]
 fn bunny_is_certified() {
-    check(&bunny(), 250);
+    check(&bunny(), &[2.0, 3.0, 4.0], 250);
 }
 
 #[test]
 fn dragon_res4_is_certified() {
-    check(&dragon("dragon_vrip_res4"), 250);
+    check(&dragon("dragon_vrip_res4"), &[2.0, 3.0, 4.0], 250);
 }
 
 #[test]
 fn dragon_res3_is_certified() {
-    check(&dragon("dragon_vrip_res3"), 150);
+    check(&dragon("dragon_vrip_res3"), &[2.0, 3.0, 4.0], 150);
 }
 
 #[test]
 fn dragon_res2_is_certified() {
-    check(&dragon("dragon_vrip_res2"), 60);
+    check(&dragon("dragon_vrip_res2"), &[3.0], 60);
 }
 
 #[test]
 fn dragon_is_certified() {
-    check(&dragon("dragon_vrip"), 20);
+    check(&dragon("dragon_vrip"), &[3.0], 20);
 }

@@ -1,4 +1,4 @@
-import { mkdtempSync, rmSync } from "node:fs";
+import { cpSync, mkdtempSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { createServer } from "vite";
@@ -7,6 +7,8 @@ import { expect, test } from "vitest";
 test("the server of npm start has the samples the first time it runs", async () => {
   const publicDir = mkdtempSync(join(tmpdir(), "hpr-public-"));
   const root = join(import.meta.dirname, "../../www");
+  // All samples but one were made by the build. To make them takes long.
+  cpSync(join(root, "public"), publicDir, { recursive: true, filter: (name) => !name.endsWith("bunny.bin") });
   const server = await createServer({
     root,
     publicDir,
