@@ -99,7 +99,7 @@ test("the question mark opens the sheet with all keys; it keeps the focus and gi
   await page.keyboard.press("?");
   const sheet = page.getByRole("dialog", { name: "Mouse, touch and keys" });
   expect(await sheet.isVisible()).toBe(true);
-  for (const key of ["P", "M", "L", "C", "E", "F", "H", "R", "?", "Esc"]) {
+  for (const key of ["P", "M", "L", "C", "E", "H", "R", "?", "Esc"]) {
     expect(await sheet.locator("kbd").allTextContents()).toContain(key);
   }
   for (let i = 0; i < 5; i++) {
