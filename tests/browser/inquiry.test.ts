@@ -69,7 +69,7 @@ class Scene {
       visibilityMap: () => ask("map", new AbortController().signal),
       dispose: () => Promise.resolve((this.disposed += 1)),
     };
-    const options = ({ looks }: { looks: number }) => Promise.resolve({ kind: looks > 0 ? "looks" : "operator" });
+    const options = ({ looks }: { looks: number }) => ({ kind: looks > 0 ? "looks" : "operator" });
     return { points, center: [0, 0, 0], options } as unknown as WorkerCloud;
   }
 

@@ -77,7 +77,9 @@ export function launchBrowser(...args: string[]): Promise<Browser> {
 export async function hideControls(page: Page): Promise<void> {
   await page.addInitScript(() => {
     const sheet = new CSSStyleSheet();
-    sheet.replaceSync("#verbs, #drawer, #signs, #marks { display: none }");
+    sheet.replaceSync(`
+      #verbs, #drawer, #signs, #marks, #tools, #panel { display: none !important }
+      body { grid-template: minmax(0, 1fr) / minmax(0, 1fr) !important }`);
     document.adoptedStyleSheets.push(sheet);
   });
 }
