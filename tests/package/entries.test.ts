@@ -30,7 +30,6 @@ async function sizeOf(file: string): Promise<number> {
 // Looks and scores cost 500 bytes: two options, their refusals, and the scores of an answer.
 // The choice of points (`within`) costs each 500 bytes. `follow` costs the worker client 1,800 bytes:
 // its stages, its options and their refusals. Drafts, cameras and waiting nodes cost the filters 600 to 800 bytes.
-// Dimming by scores costs the filters 820 to 870 bytes: the opacities, the colors of the dimmed points, and `threshold`.
 // Signs of life, and workers that are replaced, cost 500 bytes; the usual `settle`, `settled` and `ready` cost 500.
 // `configure`, the ways to start a worker and the words for what fails cost 400 to 700 bytes.
 // Maps of directions cost 2,150 bytes: the shaders as text, and their test. To draw by them costs filters 2,600 bytes:
@@ -47,7 +46,6 @@ it.each([
   // Events of their own, a texture for shaders of the language's first version and maps for new nodes cost 300 to 500.
   ["three.js", 35_750],
   ["react-three-fiber.js", 36_200],
-  // `hidesBox` costs 1,050 bytes: the horizon, and when it holds.
   ["nodes.js", 39_200],
   // Both filters, and the test as nodes.
   ["three-webgpu.js", 40_300],

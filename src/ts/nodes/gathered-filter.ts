@@ -1,10 +1,8 @@
 import type { Camera, Points } from "three";
 
-import type { Visibility } from "../cloud/visibility.js";
 import type { Round } from "../follow/follower.js";
-import { type AnswerKind, type AskedStage, isStandIn } from "../follow/refinement.js";
+import { type AnswerKind, isStandIn } from "../follow/refinement.js";
 import type { Place } from "../query/place.js";
-import type { VisibilityOptions } from "../query/view-options.js";
 import { CameraFilter, type Drawing } from "../three/camera-filter.js";
 import type { FollowedCamera } from "../three/cameras.js";
 import type { Space } from "../three/eye.js";
@@ -51,7 +49,7 @@ export interface NodesDrawing<Node> extends Drawing {
   /** The next answers of this camera's nodes are about this number of points. */
   begin?(camera: unknown, points: number): void;
   /** Draws a node's answer. Returns how many of its points are visible. Undefined if the node is gone or has changed. */
-  answer(camera: unknown, node: Node, own: Uint32Array, scores: Float32Array | undefined): number | undefined;
+  answer(camera: unknown, node: Node, own: Uint32Array): number | undefined;
 }
 
 /** Takes the nodes of a viewer as one cloud. New nodes are appended to it, and nodes that are gone are removed. */
@@ -124,8 +122,7 @@ export abstract class GatheredFilter<Node extends GatheredNode> extends CameraFi
   }
 
   /** @internal */
-  protected override leave(camera: FollowedCamera): void {
-    this.left?.(camera);
+  protected override leave(): void {
     if (this.#isFailed) {
       this.#isFailed = false;
       this.#askedVersion = undefined;
@@ -137,22 +134,6 @@ export abstract class GatheredFilter<Node extends GatheredNode> extends CameraFi
     this.#gathered.drop();
     this.#isDropped = true;
   }
-
-  /**
-   * An exact answer or a draft begins. The function that it returns gets each node that is drawn, and its visible points.
-   *
-   * @internal
-   */
-  protected taking?(
-    camera: FollowedCamera,
-    place: Place,
-    answer: Visibility,
-    stage: AskedStage<VisibilityOptions>,
-    version: number | undefined,
-  ): ((node: Node, own: Uint32Array) => void) | undefined;
-
-  /** A camera has moved on, or is forgotten. @internal */
-  protected left?(camera: FollowedCamera): void;
 
   get #isChanged(): boolean {
     return this.#askedVersion !== this.drawing.version;
@@ -198,19 +179,15 @@ export abstract class GatheredFilter<Node extends GatheredNode> extends CameraFi
   /** Asks the cloud about a camera's view, and draws the answer. */
   #viewing(camera: FollowedCamera): Round {
     const gathered = this.#gathered;
-    const version = this.#askedVersion;
     this.#isUnasked = false;
     return this.view(
       camera,
       (place, stage) => gathered.see(place, stage),
-      (answer, stage, place) => {
+      (answer, _, place) => {
         let count = 0;
-        const taken = this.taking?.(camera, place, answer, stage, version);
         this.drawing.begin?.(camera, gathered.points);
-        for (const { node, own, scores } of gathered.split(answer)) {
-          const drawn = this.drawing.answer(camera, node, own, scores);
-          count += drawn ?? 0;
-          if (drawn !== undefined && own.length > 0) taken?.(node, own);
+        for (const { node, own } of gathered.split(answer)) {
+          count += this.drawing.answer(camera, node, own) ?? 0;
         }
         this.#visible = count;
         this.#radius = answer.radius;

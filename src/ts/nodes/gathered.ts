@@ -34,8 +34,6 @@ interface NodeAnswer<Node> {
   node: Node;
   /** The ascending indices of its visible points. */
   own: Uint32Array;
-  /** The scores of all its points. Undefined if the answer has none. */
-  scores: Float32Array | undefined;
 }
 
 /**
@@ -113,8 +111,8 @@ export class Gathered<Node extends GatheredNode> {
     return see(this.#cloud!, place, stage);
   }
 
-  /** Splits an answer by node. The result has the indices and the scores of each node's own points. */
-  *split({ indices, scores }: Visibility): Generator<NodeAnswer<Node>> {
+  /** Splits an answer by node. The result has the indices of each node's own points. */
+  *split({ indices }: Visibility): Generator<NodeAnswer<Node>> {
     let from = 0;
     for (const [node, { first, count, revision }] of this.#spans) {
       while (from < indices.length && indices[from]! < first) from++;
@@ -122,7 +120,7 @@ export class Gathered<Node extends GatheredNode> {
       while (to < indices.length && indices[to]! < first + count) to++;
       if (node.revision === revision) {
         const own = indices.subarray(from, to).map((index) => index - first);
-        yield { node, own, scores: scores?.subarray(first, first + count) };
+        yield { node, own };
       }
       from = to;
     }

@@ -80,9 +80,9 @@ export class NodeSet implements NodesDrawing<CloudNode> {
     for (const node of this.#nodes.values()) node.map(camera, map);
   }
 
-  answer(camera: unknown, node: CloudNode, own: Uint32Array, scores: Float32Array | undefined): number | undefined {
-    const isSame = this.isPresent(node) && node.display.drawn.isSame;
-    return isSame ? node.display.answer(camera, own, false, scores) : undefined;
+  answer(camera: unknown, node: CloudNode, own: Uint32Array): number | undefined {
+    const isSame = this.#nodes.get(node.points) === node && node.display.drawn.isSame;
+    return isSame ? node.display.answer(camera, own) : undefined;
   }
 
   /** Forgets the answers for this camera. */
@@ -100,10 +100,6 @@ export class NodeSet implements NodesDrawing<CloudNode> {
   /** The nodes that are not refused. Some of them may not have been read yet. */
   present(): CloudNode[] {
     return [...this.#nodes.values()].filter(({ isRefused }) => !isRefused);
-  }
-
-  isPresent(node: CloudNode): boolean {
-    return this.#nodes.get(node.points) === node;
   }
 
   /** Follows the changes of the points since the last frame. */

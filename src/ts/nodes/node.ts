@@ -82,11 +82,6 @@ export class CloudNode implements GatheredNode {
     }
   }
 
-  /** The positions of some of its points in the root's space. `indices` are their indices among those that `read` returned. */
-  positionsOf(indices: Uint32Array): Float32Array | Float64Array {
-    return this.display.drawn.positionsOf(indices, this.#matrix);
-  }
-
   /** Draws the node by a map of the whole cloud. */
   map(camera: unknown, map: VisibilityMap): void {
     this.#places.versionOf(this.#place);

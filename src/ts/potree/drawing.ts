@@ -3,7 +3,6 @@ import type { Camera } from "three";
 import type { VisibilityMap } from "../cloud/visibility-map.js";
 import type { NodesDrawing } from "../nodes/gathered-filter.js";
 import type { FilterSettings } from "../three/options.js";
-import { indicesOver } from "../three/shades.js";
 import { MODE, withAnswer } from "./shader.js";
 import { Textures } from "./textures.js";
 import { Tile } from "./tiles.js";
@@ -109,16 +108,14 @@ export class PotreeDrawing implements NodesDrawing<Tile> {
     shown.isAnswered = true;
   }
 
-  answer(camera: unknown, tile: Tile, own: Uint32Array, scores: Float32Array | undefined): number {
-    const { threshold } = this.#settings;
-    const visible = scores === undefined || threshold === undefined ? own : indicesOver(scores, threshold);
+  answer(camera: unknown, tile: Tile, own: Uint32Array): number {
     const answer = this.#of(camera).answer!;
     const { length: first, bytes } = answer;
     answer.spans.set(tile, { first, revision: tile.revision });
     answer.length += tile.count;
     bytes.fill(0, first, answer.length);
-    for (const index of visible) bytes[first + index] = 255;
-    return visible.length;
+    for (const index of own) bytes[first + index] = 255;
+    return own.length;
   }
 
   drop(camera: unknown): void {

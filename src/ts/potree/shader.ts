@@ -1,5 +1,5 @@
 import { withTest } from "../three/map-shader.js";
-import { DIMMED } from "../three/shades.js";
+import { DIMMED } from "../three/options.js";
 
 /**
  * What `hprMode` is: all points are drawn; the map decides; the last answer does, which has one byte for each point.

@@ -3,9 +3,7 @@ import { type BufferAttribute, BufferGeometry, type Material, Points, type Point
 import { describe, HprError } from "../base/errors.js";
 import type { DrawnPoints } from "./drawn-points.js";
 import { MappedPoints, type MapTexture } from "./mapped-points.js";
-import type { FilterSettings } from "./options.js";
-import { DIMMED, type Shades } from "./shades.js";
-import { SoftColors } from "./soft-colors.js";
+import { DIMMED, type FilterSettings } from "./options.js";
 
 const dimmed = new WeakSet<Points>();
 
@@ -22,19 +20,15 @@ export class DimmedPoints {
   readonly #points: Points;
   readonly #child: Points;
   readonly #given: Material | undefined;
-  /** Only if hidden points are dimmed by their scores. */
-  readonly #colors: SoftColors | undefined;
   readonly #mapped: MappedPoints;
-  #shades: Shades | undefined;
   #copied: { from: Material; version: number } | undefined;
   #refused: { material: unknown } | undefined;
   #isShown = false;
 
   /** @throws HprError `option` if the material cannot be dimmed. */
-  constructor(points: Points, { dimMaterial, dimsByScore, patch }: FilterSettings) {
+  constructor(points: Points, { dimMaterial, patch }: FilterSettings) {
     this.#points = points;
     this.#given = dimMaterial;
-    this.#colors = dimsByScore ? new SoftColors() : undefined;
     this.#child = new Points(new BufferGeometry(), dimMaterial ?? this.#copy());
     this.#mapped = new MappedPoints(this.#child, patch!, -1);
     dimmed.add(this.#child);
@@ -49,7 +43,6 @@ export class DimmedPoints {
    * @throws HprError `option` in the same case as `follow`.
    */
   show(drawn: DrawnPoints): void {
-    this.#shades = drawn.shades;
     this.#mapped.show(undefined);
     this.#draw(drawn.order ?? null, drawn.visible, drawn.total - drawn.visible);
   }
@@ -57,12 +50,9 @@ export class DimmedPoints {
   /** Draws the points that a map hides. Throws as `show`. */
   showBy(texture: MapTexture, matrix?: readonly number[]): void {
     const { index, drawRange } = this.#points.geometry;
-    // Points that no score was given for have no color yet.
-    if (this.#colors === undefined || this.#shades !== undefined) {
-      this.#mapped.follow();
-      this.#mapped.show(texture, matrix);
-      this.#draw(index, drawRange.start, drawRange.count);
-    }
+    this.#mapped.follow();
+    this.#mapped.show(texture, matrix);
+    this.#draw(index, drawRange.start, drawRange.count);
   }
 
   #draw(index: BufferAttribute | null, start: number, count: number): void {
@@ -104,7 +94,7 @@ export class DimmedPoints {
     child.layers.mask = points.layers.mask;
     child.renderOrder = points.renderOrder;
     child.frustumCulled = points.frustumCulled;
-    this.#share(this.#attributesOf(attributes));
+    this.#share(attributes);
     child.geometry.boundingSphere = boundingSphere;
     if (this.#given !== undefined) {
       return;
@@ -115,7 +105,7 @@ export class DimmedPoints {
       return;
     }
     const copy = child.material as PointsMaterial;
-    copy.opacity = this.#opacity * material.opacity;
+    copy.opacity = DIMMED * material.opacity;
     copy.size = material.size;
     copy.color.copy(material.color);
   }
@@ -126,7 +116,7 @@ export class DimmedPoints {
     const { geometry, material } = this.#child;
     // Shared resources must stay on the graphics card.
     for (const name of Object.keys(geometry.attributes)) {
-      if (this.#colors === undefined || name !== "color") geometry.deleteAttribute(name);
+      geometry.deleteAttribute(name);
     }
     geometry.dispose();
     if (this.#given === undefined) {
@@ -164,26 +154,8 @@ export class DimmedPoints {
     const copy = material.clone();
     copy.transparent = true;
     copy.depthWrite = false;
-    copy.opacity = this.#opacity * material.opacity;
-    if (this.#colors !== undefined) {
-      copy.vertexColors = true;
-    }
+    copy.opacity = DIMMED * material.opacity;
     return copy;
-  }
-
-  /** The share of the material's opacity. With scores, each point has its own share in its color. */
-  get #opacity(): number {
-    return this.#colors === undefined ? DIMMED : 1;
-  }
-
-  /** The attributes of the child. With scores, the colors are its own. */
-  #attributesOf(attributes: BufferGeometry["attributes"]): BufferGeometry["attributes"] {
-    if (this.#colors === undefined || this.#shades === undefined) {
-      return attributes;
-    }
-    const { vertexColors } = this.#points.material as PointsMaterial;
-    const source = vertexColors ? attributes["color"] : undefined;
-    return { ...attributes, color: this.#colors.of(this.#shades, source) };
   }
 }
 

@@ -5,7 +5,6 @@ import { DrawnPoints } from "./drawn-points.js";
 import { MappedPoints, type MapTexture, MapTextures } from "./mapped-points.js";
 import type { VisibilityMap } from "../cloud/visibility-map.js";
 import type { FilterSettings } from "./options.js";
-import { indicesOver } from "./shades.js";
 
 /** A map, and the way from the points' space to the map's. */
 interface Mapped {
@@ -24,7 +23,6 @@ export class Display {
   readonly #textures: MapTextures;
   readonly #ownTextures: MapTextures | undefined;
   #camera: unknown;
-  readonly #threshold: number | undefined;
   #enabled = true;
   /** The layers of the points, while they are not drawn because they wait for their first answer. */
   #layers: number | undefined;
@@ -35,12 +33,11 @@ export class Display {
    * @throws HprError `option` if the material cannot be dimmed.
    */
   constructor(points: Points, settings: FilterSettings, textures?: MapTextures) {
-    const { dim, threshold, mapped, patch } = settings;
+    const { dim, mapped, patch } = settings;
     this.#points = points;
     this.#dimmed = dim ? new DimmedPoints(points, settings) : undefined;
-    this.#threshold = threshold;
     this.#mapped = mapped && new MappedPoints(points, patch!);
-    this.drawn = new DrawnPoints(points, settings);
+    this.drawn = new DrawnPoints(points, dim);
     this.#ownTextures = textures === undefined ? new MapTextures() : undefined;
     this.#textures = textures ?? this.#ownTextures!;
   }
@@ -71,20 +68,17 @@ export class Display {
   /**
    * Takes up the points that a camera sees, and draws them if the camera is selected. `indices` are
    * their ascending indices among the points that `drawn` has read. With `isListed`, the indices of
-   * the hidden points follow in memory already. `scores` are those of all points that were read: with
-   * a threshold, they decide which points are visible.
+   * the hidden points follow in memory already.
    *
    * @returns the number of points that are drawn as visible.
    * @throws HprError `too-large`, `option`.
    */
-  answer(camera: unknown, indices: Uint32Array, isListed = false, scores?: Float32Array): number {
-    const isDecided = scores === undefined || this.#threshold === undefined;
-    const visible = isDecided ? indices : indicesOver(scores, this.#threshold);
-    this.drawn.setVisible(camera, visible, isListed && isDecided, scores);
+  answer(camera: unknown, indices: Uint32Array, isListed = false): number {
+    this.drawn.setVisible(camera, indices, isListed);
     this.#maps.delete(camera);
     this.isPending = false;
     this.#show();
-    return visible.length;
+    return indices.length;
   }
 
   /** Draws what this camera sees. Called in every frame. */

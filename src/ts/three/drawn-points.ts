@@ -5,7 +5,6 @@ import { listHidden, orderIn } from "../cloud/hidden.js";
 import type { VisibilityMap } from "../cloud/visibility-map.js";
 import { allocating } from "../base/memory.js";
 import { type PositionAttribute, readPositions, type ReadPositions, requirePositions, versionOf } from "./attribute.js";
-import { type HiddenSettings, Shades } from "./shades.js";
 
 /** The state of a geometry before it got a filter. */
 interface Taken {
@@ -22,8 +21,6 @@ interface Taken {
 interface Order {
   attribute: BufferAttribute;
   visible: number;
-  /** How opaque the hidden points are, if they are dimmed by their scores. */
-  shades: Shades | undefined;
   /** Whether all points are drawn instead, because the answer is about another view. */
   isStale: boolean;
 }
@@ -43,7 +40,7 @@ const taken = new WeakSet<BufferGeometry>();
  */
 export class DrawnPoints {
   readonly #points: Points;
-  readonly #hidden: HiddenSettings;
+  readonly #listsHidden: boolean;
   #taken: Taken | undefined;
   /** The numbers of the points that were drawn without a filter. Undefined if all were drawn, in their order. */
   #ids: Uint32Array | undefined;
@@ -53,9 +50,9 @@ export class DrawnPoints {
   /** The order that the geometry draws. Undefined while it draws all points. */
   #shown: Order | undefined;
 
-  constructor(points: Points, hidden: HiddenSettings) {
+  constructor(points: Points, listsHidden: boolean) {
     this.#points = points;
-    this.#hidden = hidden;
+    this.#listsHidden = listsHidden;
   }
 
   /** How many points are drawn without a filter. */
@@ -70,11 +67,6 @@ export class DrawnPoints {
 
   get order(): BufferAttribute | undefined {
     return this.#order?.attribute;
-  }
-
-  /** How opaque the hidden points are. Undefined unless they are dimmed by their scores. */
-  get shades(): Shades | undefined {
-    return this.#order?.shades;
   }
 
   /** The numbers of the points that are drawn. */
@@ -169,23 +161,16 @@ export class DrawnPoints {
     return readPositions(position, this.#ids, place);
   }
 
-  /** Returns the positions of some points. `indices` are their indices among the points that `take` returned. */
-  positionsOf(indices: Uint32Array, place?: readonly number[]): Float32Array | Float64Array {
-    const ids = this.#ids === undefined ? indices : indices.map((i) => this.#ids![i]!);
-    return readPositions(this.#taken!.position, ids, place).numbers;
-  }
-
   /**
    * Notes the points that a camera sees. `indices` are their ascending indices among the points that `take`
-   * returned. With `isListed`, the indices of the hidden points follow in memory. `scores` has one number
-   * for each of these points.
+   * returned. With `isListed`, the indices of the hidden points follow in memory.
    */
-  setVisible(camera: unknown, indices: Uint32Array, isListed = false, scores?: Float32Array): void {
+  setVisible(camera: unknown, indices: Uint32Array, isListed: boolean): void {
     const known = this.#orders.get(camera) ?? this.#newOrder();
     this.#orders.set(camera, known);
     const { attribute } = known;
     const order = attribute.array as Uint32Array;
-    const all = this.#hidden.dim;
+    const all = this.#listsHidden;
     order.set(all && isListed ? orderIn(indices as Uint32Array<ArrayBuffer>, order.length) : indices);
     if (all && !isListed) {
       listHidden(order, indices.length);
@@ -195,7 +180,6 @@ export class DrawnPoints {
       const end = all ? order.length : indices.length;
       for (let i = 0; i < end; i++) order[i] = ids[order[i]!]!;
     }
-    known.shades?.take(scores, ids, this.#hidden.threshold);
     known.visible = indices.length;
     known.isStale = false;
     attribute.clearUpdateRanges();
@@ -210,8 +194,7 @@ export class DrawnPoints {
     const attribute = allocating(`${this.#total} indices`, () => {
       return new BufferAttribute(new Uint32Array(this.#total), 1).setUsage(DynamicDrawUsage);
     });
-    const shades = this.#hidden.dimsByScore ? new Shades(this.#taken!.position.count) : undefined;
-    return { attribute, visible: 0, shades, isStale: false };
+    return { attribute, visible: 0, isStale: false };
   }
 
   /** Draws the points that the selected camera sees: all points if there is no answer for it. */

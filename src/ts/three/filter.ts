@@ -121,7 +121,7 @@ export class HiddenPointFilter extends CameraFilter<HiddenPointFilterEvents> {
         if (!this.drawing.drawn.isSame) {
           return undefined;
         }
-        const count = this.drawing.answer(camera, answer.indices, this.#settings.inWorker, answer.scores);
+        const count = this.drawing.answer(camera, answer.indices, this.#settings.inWorker);
         cloud.recycle(answer);
         this.#count = count;
         return { count };

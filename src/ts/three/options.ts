@@ -5,7 +5,6 @@ import { FOLLOW_OPTIONS, type FollowOptions, type FollowSettings, followSettings
 import { givenOptions, pick } from "../query/options.js";
 import { VIEW_OPTIONS, viewSettings, type VisibilityOptions } from "../query/view-options.js";
 import type { PatchMaterial } from "./map-material.js";
-import type { HiddenSettings } from "./shades.js";
 
 /** The options of a filter. The options of `VisibilityOptions` set how each view is computed. */
 export interface HiddenPointFilterOptions extends VisibilityOptions, FollowOptions {
@@ -16,22 +15,14 @@ export interface HiddenPointFilterOptions extends VisibilityOptions, FollowOptio
    */
   worker?: boolean | undefined;
   /**
-   * Hidden points are not drawn (`"hide"`, the default), or are drawn faintly (`"dim"`). If the answer has
-   * `scores`, a hidden point is drawn the more faintly, the lower its score is.
+   * Hidden points are not drawn (`"hide"`, the default), or are drawn faintly (`"dim"`).
    */
   mode?: "hide" | "dim" | undefined;
   /**
    * The material of hidden points in mode `"dim"`. Default: a transparent copy of the points' own
-   * material, which must then be a `PointsMaterial` (or `PointsNodeMaterial`). With `scores`, the
-   * opacity of each hidden point is the fourth number of the attribute `color`: set `vertexColors` to use it.
+   * material, which must then be a `PointsMaterial` (or `PointsNodeMaterial`).
    */
   dimMaterial?: Material | undefined;
-  /**
-   * The least score of a point that is drawn as visible, from 0 to 1. It replaces the decision of each
-   * answer that has scores: ask for them by `looks` and `scores`, or in `settle`. Default: the answer
-   * itself decides.
-   */
-  threshold?: number | undefined;
   /**
    * How points with a NaN or infinite coordinate are handled: `"error"` refuses the whole cloud,
    * `"skip"` treats these points as hidden. Default `"error"`.
@@ -40,15 +31,20 @@ export interface HiddenPointFilterOptions extends VisibilityOptions, FollowOptio
 }
 
 /** {@link HiddenPointFilterOptions} with all defaults. The core checks the ranges in `view`. */
-export interface FilterSettings extends FollowSettings, HiddenSettings {
+export interface FilterSettings extends FollowSettings {
   inWorker: boolean;
+  /** Whether hidden points are drawn, but dimmed. */
+  dim: boolean;
   dimMaterial: Material | undefined;
   nonFinite: "error" | "skip";
   /** How materials are made to leave out hidden points. Undefined where points are drawn without them. */
   patch: PatchMaterial | undefined;
 }
 
-const OWN_OPTIONS = ["worker", "mode", "dimMaterial", "threshold", "nonFinite"] as const;
+/** The share of its opacity that a hidden point keeps. */
+export const DIMMED = 0.15;
+
+const OWN_OPTIONS = ["worker", "mode", "dimMaterial", "nonFinite"] as const;
 
 export function readFilterOptions(options: unknown, patch?: PatchMaterial): FilterSettings {
   const given = givenOptions(options, VIEW_OPTIONS, FOLLOW_OPTIONS, OWN_OPTIONS);
@@ -57,17 +53,13 @@ export function readFilterOptions(options: unknown, patch?: PatchMaterial): Filt
   const inWorker = oneOf(given, "worker", [true, false]);
   const follow = followSettings(given, view, { isLater: inWorker, hasShaders: true });
   const dim = oneOf(given, "mode", ["hide", "dim"]) === "dim";
-  const hasScores = follow.stages.some((stage) => stage.options.scores === true);
-  const threshold = readThreshold(given["threshold"], hasScores);
-  if (hasScores && !dim && threshold === undefined) {
-    throw new HprError("option", `scores need mode "dim" or a threshold`);
+  if (follow.stages.some((stage) => stage.options.scores === true)) {
+    throw new HprError("option", "a filter draws no scores: ask a PointCloud for them");
   }
   return {
     ...follow,
     inWorker,
     dim,
-    dimsByScore: dim && hasScores,
-    threshold,
     dimMaterial: readMaterial(given["dimMaterial"], dim),
     nonFinite: oneOf(given, "nonFinite", ["error", "skip"]),
     patch,
@@ -100,19 +92,6 @@ function oneOf<T extends string | boolean>(given: Record<string, unknown>, name:
     );
   }
   return value as T;
-}
-
-function readThreshold(threshold: unknown, hasScores: boolean): number | undefined {
-  if (threshold === undefined) {
-    return undefined;
-  }
-  if (typeof threshold !== "number" || !(threshold >= 0 && threshold <= 1)) {
-    throw new HprError("option", `threshold must be a number from 0 to 1, got ${describe(threshold)}`);
-  }
-  if (!hasScores) {
-    throw new HprError("option", "threshold needs looks and scores, or a settle with both");
-  }
-  return threshold;
 }
 
 function readMaterial(material: unknown, dim: boolean): Material | undefined {
