@@ -28,7 +28,7 @@ macro_rules! short {
 }
 
 short! {
-    oracle 20_000;
+    oracle 6_000;
     sectors 300;
     drafts 30;
     boxes 20;
@@ -40,5 +40,5 @@ short! {
     invariance 300;
     parts 100;
     maps 8;
-    threads 100;
+    threads 40;
 }
