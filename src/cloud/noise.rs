@@ -31,7 +31,7 @@ const TO_DEVIATION: f64 = 1.15;
 /// registered ones 0.13 and more.
 const NOISY: f64 = 0.075;
 /// Less noise counts if it is even and [alike](MEASURED). The corners of clean meshes are not. This share of the noise never counts.
-const CLEAN: f64 = 0.04;
+pub(crate) const CLEAN: f64 = 0.04;
 /// Noise is even if this ratio of a low to a very low percentile is not reached. Normal noise gives
 /// 1.29, noisy objects at most 1.57, scans that overlap 2.0 and more.
 const EVEN: f64 = 1.8;

@@ -16,7 +16,7 @@ use crate::base::allocation::{OutOfMemory, filled, with_capacity};
 use crate::base::error::Error;
 use crate::base::sort::percentile;
 use crate::cloud::neighbors::{Nearest, Neighbors};
-use crate::cloud::noise::Noise;
+use crate::cloud::noise::{CLEAN, Noise};
 use crate::cloud::point_cloud::{PointCloud, Smooth, Survey};
 use crate::cloud::quadric::off_quadric;
 use crate::cloud::statistics::{mean_distance, sampled_place};
@@ -24,8 +24,7 @@ use crate::view::options::Options;
 
 /// How many neighbors make the plane to which a point moves.
 const NEIGHBORS: usize = 32;
-/// Points move until their noise is at most this, in spacings, and at most so often.
-const SMOOTH: f64 = 0.04;
+/// Points move until they are clean, and at most so often.
 const PASSES: usize = 3;
 /// Moving points joins layers if, at this percentile of so many places, points lie at most so far
 /// off their surface afterwards, in spacings: 0.24 and 0.4 in registered rooms. It does so, too, where
@@ -93,7 +92,7 @@ impl Smooth {
         let mut moved = cloud.denoised(NEIGHBORS)?;
         let mut noise = Noise::of(&moved.sequence.points)?;
         for _ in 1..PASSES {
-            if noise.ratio > SMOOTH {
+            if noise.ratio > CLEAN {
                 moved = moved.denoised(NEIGHBORS)?;
                 noise = Noise::of(&moved.sequence.points)?;
             }

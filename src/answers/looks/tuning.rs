@@ -31,21 +31,19 @@ const THICKNESS: f64 = 10.0;
 /// the noise as measured, beyond what clean clouds have.
 const ASIDE: f64 = 20.0;
 const NEARER: f64 = 4.0;
-/// Spacing grows with range if its power, times the square of the correlation, is above this; clean
-/// surfaces have 0.1 from inside. It has its full effect from the second number on. The widening of
-/// a scan in rings is about 20, so hulls are 50 times looser then. The effect grows with the square
-/// of the way between: labels change most where it begins.
+/// Spacing grows with range if its power, times what that explains, is above this; clean surfaces
+/// have 0.1 from inside. It has its full effect from the second number on. The widening of a scan in
+/// rings is about 20, so hulls are 50 times looser then. The effect grows with the square of the way
+/// between, here and in [`AWAY`]: labels change most where it begins.
 const GROWS: [f64; 2] = [0.12, 0.3];
 /// A scan that is seen from its scanner has near points side by side: in at most this share of all
 /// directions, the nearest point by direction is more than so many spacings away. From the first
 /// number on, the viewpoint is not at the scanner.
-const AWAY: [f64; 2] = [0.1, 0.05];
+const AWAY: [f64; 2] = [0.5, 0.05];
 const NEAR: f64 = 10.0;
-/// Noise rules along rays if it is more than this share of the spacing across them; likewise.
-const RULES: [f64; 2] = [0.2, 0.3];
-/// How much looser hulls are with noise, and with range.
+/// How much looser hulls are with a thickness, and by how many powers of two with range.
 const LOOSER: f64 = 0.5;
-const LOOSER_BY_RANGE: [f64; 2] = [5.0, 4.0];
+const LOOSER_BY_RANGE: f64 = 5.0;
 const COSINE_POWER: f64 = 3.5;
 
 /// The numbers of one view, in the cloud's units.
@@ -90,17 +88,19 @@ impl Tuning {
                 (measured, thickness, measured.excess)
             }
         };
-        let (growth, ranged) = match projection {
-            Projection::Perspective(viewpoint) => {
-                let view = Range {
-                    noise,
-                    viewpoint,
-                    farthest,
-                };
-                view.growth(&cloud.sequence.points)?
-            }
-            Projection::Parallel(_) => (0.0, 0.0),
+        let range = match projection {
+            Projection::Perspective(viewpoint) => Some(Range {
+                noise,
+                viewpoint,
+                farthest,
+            }),
+            Projection::Parallel(_) => None,
         };
+        let (growth, ranged) = match &range {
+            Some(range) => range.growth(&cloud.sequence.points)?,
+            None => (0.0, 0.0),
+        };
+        let is_thick = thickness > 0.0;
         let is_moved = survey.smooth.is_some() && given.is_none();
         let odds = Odds::of(
             !is_moved && measured.texture.looser > 1.0,
@@ -112,40 +112,26 @@ impl Tuning {
                 0.0
             },
         );
-        if !(thickness > 0.0 || growth > 0.0) {
+        if !(is_thick || growth > 0.0) {
             return Ok(Self {
                 odds,
                 ..Self::plain(statistics)
             });
         }
-        let is_thick = thickness > 0.0;
-        let (rules, cosine) = if is_thick {
-            let cosine = cosine(noise, projection)?;
-            (ramp(excess / (noise.spacing * cosine), RULES), cosine)
-        } else {
-            (0.0, 1.0)
-        };
-        let by_range = LOOSER_BY_RANGE[usize::from(is_thick)];
-        let mut looser = libm::exp2(-by_range * growth);
-        if rules > 0.0 {
-            looser *= libm::pow((2.0 * cosine).min(1.0), COSINE_POWER * rules);
-        }
-        let ring = looser;
+        let mut ring = libm::exp2(-LOOSER_BY_RANGE * growth);
+        let mut looser = ring;
         if is_thick {
-            looser *= LOOSER;
+            let cosine = cosine(noise, projection)?;
+            ring *= libm::pow((2.0 * cosine).min(1.0), COSINE_POWER);
+            looser = LOOSER * ring;
         }
-        let wide = (1.0 - rules) * (1.0 - ranged);
+        let wide = if is_thick { 0.0 } else { 1.0 - ranged };
         let mut gap = statistics.spacing * libm::pow(statistics.widening, wide);
         if growth > 0.0
-            && let Projection::Perspective(viewpoint) = projection
+            && let Some(range) = range
         {
             // The mean of all local scales is that of a cloud that does not grow.
-            let view = Range {
-                noise,
-                viewpoint,
-                farthest,
-            };
-            gap /= view.mean_power(growth);
+            gap /= range.mean_power(growth);
         }
         Ok(Self {
             scales: scales(gap, looser),
@@ -153,7 +139,7 @@ impl Tuning {
             ring,
             wide,
             thickness,
-            aside: ASIDE * rules * excess,
+            aside: ASIDE * excess,
             nearer: NEARER * excess,
             odds,
         })
@@ -221,16 +207,16 @@ impl Range<'_> {
     /// The power of the distance with which spacing grows, and how far this counts, from 0 to 1.
     fn growth(&self, points: &Points) -> Result<(f64, f64), OutOfMemory> {
         let growth = self.correlated_growth();
-        let grows = ramp(growth, GROWS);
-        let mut counts = grows * grows;
+        let mut counts = ramp(growth, GROWS);
         if counts > 0.0 {
             counts *= ramp(self.share_away(points)?, AWAY);
         }
+        counts *= counts;
         Ok((growth * counts, counts))
     }
 
-    /// The power of the distance with which spacing grows, times the square of the correlation of
-    /// their logarithms; from 0 to 1.
+    /// The power of the distance with which spacing grows, at most 1, times the share of the
+    /// variance of its logarithm that this explains.
     fn correlated_growth(&self) -> f64 {
         let [mut n, mut x, mut y, mut xx, mut xy, mut yy] = [0.0; 6];
         for (sample, distance) in self.noise.samples.iter().zip(self.distances()) {
@@ -246,9 +232,10 @@ impl Range<'_> {
             }
         }
         let [varied, together, other] = [n * xx - x * x, n * xy - x * y, n * yy - y * y];
-        let growth = together / varied * (together / varied) * (together / other);
+        let power = (together / varied).min(1.0);
+        let growth = power * (power * (2.0 * together - power * varied) / other);
         // NaN where all are alike.
-        if growth > 0.0 { growth.min(1.0) } else { 0.0 }
+        if growth > 0.0 { growth } else { 0.0 }
     }
 
     /// The share of the samples whose nearest point by direction is elsewhere.
