@@ -54,7 +54,7 @@ describe("the shader's text", () => {
       const { PointCloud } = modules["hidden-point-removal"];
       const gl = document.createElement("canvas").getContext("webgl2")!;
       const compared: Compared[] = [];
-      const views: [place: number[], viewpoint: number[], exponent?: number][] = [
+      const views: [place: number[], viewpoint: number[], exponent?: number | undefined][] = [
         [[0, 0, 0], [5, 3, 4], 3],
         [[0, 0, 0], [2.5, 0, 0], 2],
         [
