@@ -3,9 +3,10 @@
 //! INPUT    a cloud, a viewpoint, a budget of points and of corners.
 //! OUTPUT   for each corner of a grid of directions a distance; a point beyond it is hidden.
 //! SUMMARY  K of a sample lies inside K of all points. So what the sample's hull hides is hidden
-//!          for certain: of an even sample, the nearest points in each direction (`pool`). The reaches of the hull become distances (`depths`), or those of
-//!          its triangles where the map stands in for looks (`surface`). One comparison in
-//!          single precision tests a point (`hides`).
+//!          for certain: of an even sample, the nearest points in each direction
+//!          (`pool`). The reaches of the hull become distances (`depths`), or those of its triangles
+//!          where the map stands in for looks (`surface`). One comparison in single precision
+//!          tests a point (`hides`).
 
 mod depths;
 mod hides;
@@ -29,18 +30,18 @@ use crate::view::resolved::looks;
 pub use hides::VisibilityMap;
 use kept::MapMemory;
 pub use options::MapOptions;
-use pool::{FEW, Pool};
+use pool::{FEW, Need, Pool};
 use surface::Look;
 
 /// Distances in a map are between the first number and the last one, in the cloud's units.
 const UNITS: core::ops::Range<f64> = 1e-15..1e15;
 
-/// A map takes one in so many of the points that are probably visible in the whole cloud: more would cost much of what the
-/// exact answer costs. Looks cost more. Of some directions it takes all.
+/// Without a radius a map takes one in so many of the points that are probably visible in the whole cloud: more would cost
+/// much of what the exact answer costs. Looks cost more.
 const ONE_IN: f64 = 12.0;
 const ONE_IN_LOOKS: f64 = 2.0;
 /// The most corners for each point of a map, of which there are at least `FEW`.
-const CORNERS: usize = 8;
+const CORNERS: usize = 6;
 
 /// What a map is asked about. Points may have been `moved` so far.
 struct Asked<'a> {
@@ -119,19 +120,25 @@ impl PointCloud {
         let MapMemory { hull, pool } = &mut memory.maps;
         let is_smooth = !core::ptr::eq(source, self);
         let points = &source.sequence.points;
-        let pool = Pool::of(pool, points, is_smooth, map)?;
-        let one_in = match map.towards {
-            None if is_look => ONE_IN_LOOKS,
-            None => ONE_IN,
-            Some(_) => 1.0,
+        let view = match is_look {
+            true => None,
+            false => Some(self.view(viewpoint, options)?),
         };
-        let (chosen, stands_for) = pool.choose(viewpoint, map, one_in)?;
-        let (flip, thickness, farthest) = if is_look {
-            let apart = square_root(stands_for);
-            look_of_map(self, survey.as_deref(), viewpoint, options.thickness, apart)?
-        } else {
-            let view = self.view(viewpoint, options)?;
-            (view.flip, 0.0, view.farthest)
+        let need = match &view {
+            // All of them, as far as there is room.
+            _ if map.towards.is_some() => Need::OneIn(1.0),
+            None => Need::OneIn(ONE_IN_LOOKS),
+            Some(view) if view.chosen.radius > 0.0 => Need::ForRadius(view.chosen.radius),
+            Some(_) => Need::OneIn(ONE_IN),
+        };
+        let pool = Pool::of(pool, points, is_smooth, map, &need)?;
+        let (chosen, stands_for) = pool.choose(viewpoint, map, need)?;
+        let (flip, thickness, farthest) = match view {
+            None => {
+                let apart = square_root(stands_for);
+                look_of_map(self, survey.as_deref(), viewpoint, options.thickness, apart)?
+            }
+            Some(view) => (view.flip, 0.0, view.farthest),
         };
         let mut made = VisibilityMap::empty(viewpoint, origin, moved);
         let reach = farthest + made.distance_of_origin();

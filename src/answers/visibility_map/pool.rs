@@ -15,20 +15,35 @@ use crate::cloud::points::Points;
 use crate::hull::{Window, place};
 use crate::view::resolved::normalized;
 
-/// How many points a pool has for each point of a map: in all directions, and for a map towards some
-/// of them.
-const TIMES: [usize; 2] = [6, 12];
+/// The most points of a pool for each point of a map.
+const TIMES: usize = 6;
+/// Where the radius tells how many are needed, a pool has one in so many points of the cloud, but at least `SMALL`: to look
+/// through more would cost more than the hull.
+const PART: usize = 4;
+const SMALL: usize = 4 * FEW;
 /// One in so many points of the pool shows where the cloud is seen.
 const STEP: usize = 16;
 /// At most so many cells for each that points are in, so that a grid takes little memory.
 const MOST_EMPTY: f64 = 8.0;
-/// A map has at least so many points, if the pool has as many.
+/// A map has at least so many points, if the pool has as many; of a large cloud one in `ENOUGH_OF`, up to `ENOUGH`.
 pub(super) const FEW: usize = 8192;
+const ENOUGH: usize = 12_288;
+const ENOUGH_OF: usize = 36;
+/// How many points there are for each that [`Need::ForRadius`] derives.
+const FOR_RADIUS: f64 = 1.2;
 /// How much wider than the given cone the points are, as a share of the angle.
 const WIDER: f64 = 1.1;
 
+/// How many points a map takes.
+pub(super) enum Need {
+    /// One in so many of the points that are probably visible in the whole cloud.
+    OneIn(f64),
+    /// As many as a spherical flip of this radius R needs: between points that are an angle δ apart, the hull sags by
+    /// about R·δ², and it hides what lies deeper behind them. So A·R/D points hide a depth D in a solid angle A.
+    ForRadius(f64),
+}
+
 pub(super) struct Pool {
-    /// As it was asked for.
     size: usize,
     /// Whether its points were moved to where they would be without noise.
     is_smooth: bool,
@@ -44,10 +59,12 @@ impl Pool {
         points: &Points,
         is_smooth: bool,
         map: &MapOptions,
+        need: &Need,
     ) -> Result<&'a mut Self, OutOfMemory> {
-        let size = map
-            .points
-            .saturating_mul(TIMES[usize::from(map.towards.is_some())]);
+        let mut size = map.points.saturating_mul(TIMES).min(points.len());
+        if let Need::ForRadius(_) = need {
+            size = size.min((points.len() / PART).max(SMALL));
+        }
         let is_same = |pool: &Self| pool.size == size && pool.is_smooth == is_smooth;
         let new = match kept.take().filter(is_same) {
             Some(pool) => pool,
@@ -57,20 +74,19 @@ impl Pool {
                     size,
                     is_smooth,
                     all,
-                    points: points.gathered(&even_places(all, size.min(all))?)?,
+                    points: points.gathered(&even_places(all, size)?)?,
                 }
             }
         };
         Ok(kept.insert(new))
     }
 
-    /// The points that hide the most, and how many visible points of the cloud stand for each of them. They are one
-    /// in `one_in` of the visible ones, but at least `FEW`.
+    /// The points that hide the most, and how many visible points of the cloud stand for each of them.
     pub(super) fn choose(
         &self,
         viewpoint: [f64; 3],
         map: &MapOptions,
-        one_in: f64,
+        need: Need,
     ) -> Result<(Points, f64), OutOfMemory> {
         let cone = Cone::of(map);
         let viewpoint = DVec3::from_array(viewpoint);
@@ -93,7 +109,15 @@ impl Pool {
         if self.points.len() > FEW {
             let sample = Sample::of(self.points.iter().step_by(STEP).filter_map(seen))?;
             visible = sample.near as f64 * STEP as f64 * stands_for;
-            let count = smaller(larger(visible / one_in, FEW as f64), map.points as f64);
+            let enough = (self.all / ENOUGH_OF).clamp(FEW, ENOUGH) as f64;
+            let count = match need {
+                Need::OneIn(one_in) => larger(visible / one_in, FEW as f64),
+                Need::ForRadius(_) if sample.depth == 0.0 => enough,
+                Need::ForRadius(radius) => {
+                    larger(FOR_RADIUS * sample.area * radius / sample.depth, enough)
+                }
+            };
+            let count = smaller(count, map.points as f64);
             let grid = Grid::new(&sample.extents, count * sample.empty);
             let mut nearest = filled(grid.cells, (f32::INFINITY, 0))?;
             for (number, point) in self.points.iter().enumerate() {
@@ -132,6 +156,10 @@ struct Sample {
     extents: Extents,
     /// How many of them are about as near as the nearest one beside them.
     near: usize,
+    /// How far the others lie behind it, in the mean.
+    depth: f64,
+    /// The area on the sides of the cube, which is about the solid angle.
+    area: f64,
     /// How many cells there are for each that points are in.
     empty: f64,
 }
@@ -155,14 +183,21 @@ impl Sample {
             *nearest = nearest.min(squared);
         }
         let same = (1.0 + 4.0 / grid.cells_per_unit) as f32;
-        let is_near = |&&(side, at, squared): &&(usize, [f64; 2], f32)| {
-            squared < nearest[grid.cell(side, at)] * same
-        };
-        let near = all.iter().filter(is_near).count();
+        let (mut near, mut depth) = (0, 0.0);
+        for &(side, at, squared) in &all {
+            let nearest = nearest[grid.cell(side, at)];
+            if squared < nearest * same {
+                near += 1;
+            } else {
+                depth += square_root(squared.into()) - square_root(nearest.into());
+            }
+        }
         let used = nearest.iter().filter(|&&x| x < f32::INFINITY).count();
         Ok(Self {
             extents,
             near,
+            depth: depth / (all.len() - near).max(1) as f64,
+            area: used as f64 / (grid.cells_per_unit * grid.cells_per_unit),
             empty: smaller(grid.cells as f64 / used.max(1) as f64, MOST_EMPTY),
         })
     }
