@@ -1,9 +1,6 @@
 // Tiled viewers hold many Points. The filter takes all of them as one cloud, also where two of them meet.
 import * as THREE from "three";
-import { init } from "hidden-point-removal";
 import { HiddenPointNodesFilter } from "hidden-point-removal/nodes";
-
-await init(); // only for hidesBox
 
 /** A node of 20 by 20 points with a spacing of 1, at its own position. */
 function node(x, y, z) {
@@ -36,7 +33,6 @@ async function draw() {
 }
 
 console.log(await draw()); // → 800 of 1200
-console.log(filter.hidesBox([12, 2, -90], [28, 16, -80])); // → true
 octree.remove(octree.children[0]); // half of the points that hid the third node
 console.log(await draw()); // → 600 of 800
 filter.dispose();
