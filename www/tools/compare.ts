@@ -7,6 +7,9 @@ import type { Viewer } from "../view/viewer.ts";
 /** Shares of the width, in the order of the keys: left, right, down, up, page down, page up, home, end. */
 const STEPS = [-0.02, 0.02, -0.02, 0.02, -0.1, 0.1, -1, 1];
 
+/** The words beside the line need this share of the width on either side. */
+const BESIDE = 0.1;
+
 /** The line that divides the picture: all points are to its left, the points that can be seen to its right. */
 export class Compare {
   readonly #viewer: Viewer;
@@ -36,7 +39,8 @@ export class Compare {
   follow(): void {
     const { compare } = this.#store.current;
     const idle = compare === null || this.#viewer.cloud === null;
-    this.#divider.hidden = this.#note.hidden = idle;
+    this.#divider.hidden = idle;
+    this.#note.hidden = idle || compare < BESIDE || compare > 1 - BESIDE;
     if (idle) return;
     this.#note.style.setProperty("--at", `${100 * compare}%`);
     this.#divider.style.left = `${100 * compare}%`;

@@ -9,10 +9,12 @@ export function sentenceOf({ visibility, kind }: TimedView, total: number, froze
   return `${most}${number.format(visibility.count)} of ${number.format(total)} ${points} can be seen from ${whereFrom(frozen)}.`;
 }
 
-/** The same in round numbers, to be read at a glance. */
-export function captionOf({ visibility }: TimedView, total: number, frozen: boolean): string {
+/** The same in round numbers, to be read at a glance. A draft, whose number would jump, asks. */
+export function captionOf({ visibility, kind }: TimedView, total: number, frozen: boolean): string {
   const points = total === 1 ? "point" : "points";
-  return `${rounded(total)} ${points}. ${rounded(visibility.count)} can be seen from ${whereFrom(frozen)}.`;
+  const seen = `can be seen from ${whereFrom(frozen)}`;
+  const second = kind === "draft" ? `Which ${seen}?` : `${rounded(visibility.count)} ${seen}.`;
+  return `${rounded(total)} ${points}. ${second}`;
 }
 
 /** How the answer was found. */
