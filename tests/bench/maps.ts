@@ -25,7 +25,7 @@ const EVERY = 12;
 
 /**
  * A full turn by maps alone. The first map is not counted. Some places are asked cold as well, in turns.
- * With an angle, only the directions of a cone around the middle of the cloud count. Throws if a map of one hull
+ * With an angle, only the directions of a cone along the orbit count. Throws if a map of one hull
  * hides a visible point.
  */
 export function timeMaps(): Table {
@@ -40,7 +40,8 @@ export function timeMaps(): Table {
     let first = 0;
     for (let step = 0; step <= STEPS; step++) {
       const viewpoint = at(DEGREES * step);
-      const direction = center.map((x, axis) => x - viewpoint[axis]!);
+      const ahead = at(DEGREES * step + 90);
+      const direction = center.map((x, axis) => ahead[axis]! - x);
       const towards = angle === undefined ? {} : { towards: { direction, angle } };
       const map = timed(() => cloud.visibilityMap(viewpoint, { ...options, ...towards }));
       if (step === 0) first = map.milliseconds;
@@ -56,7 +57,8 @@ export function timeMaps(): Table {
         if (hidden[i] === 1) counts[visible === 1 ? "wrong" : "found"]++;
       });
       if (options.looks === undefined && counts.wrong > 0) throw new WrongAnswer(`${name}: a map hides visible points`);
-      shares.push(counts.found / counts.hidden);
+      // A bare wall hides nothing.
+      if (counts.hidden > 0) shares.push(counts.found / counts.hidden);
       wrong.push(counts.wrong / counts.visible);
     }
     cloud.dispose();
@@ -75,7 +77,7 @@ export function timeMaps(): Table {
   });
   const note =
     `Median milliseconds in Node, on one core; ${STEPS} maps, ${DEGREES}° apart, of which one in ${EVERY} is compared. ` +
-    '"Wrong" can be above 0 only with looks. With an angle, only a cone around the middle of the cloud counts.';
+    '"Wrong" can be above 0 only with looks. With an angle, only a cone along the orbit counts.';
   return { title: "Maps of directions", note, rows };
 }
 
