@@ -27,14 +27,14 @@ const images = [0, 1, 2].map((i) => ({
   height,
 }));
 
-function done(...args: string[]): string {
-  const { status, stderr } = run("in.xyz", ...args);
+async function done(...args: string[]): Promise<string> {
+  const { status, stderr } = await run("in.xyz", ...args);
   expect(status, stderr).toBe(0);
   return stderr;
 }
 
-function refused(...args: string[]): [number | null, string] {
-  const { status, stderr } = run("in.xyz", ...args);
+async function refused(...args: string[]): Promise<[number | null, string]> {
+  const { status, stderr } = await run("in.xyz", ...args);
   return [status, stderr];
 }
 
@@ -59,13 +59,13 @@ describe("--cameras", () => {
       plain.map((camera, i) => ({ camera, image: cameras[i]!.image })),
     );
     const any = [...cloud.visibleFromAny(plain, { looks: 3 }).indices].map(String);
-    done("--cameras", "cameras.json", "-o", "any.idx");
+    await done("--cameras", "cameras.json", "-o", "any.idx");
     expect(lines("any.idx")).toEqual(any);
-    done("--viewpoints", "cameras.json", "-o", "any.idx");
+    await done("--viewpoints", "cameras.json", "-o", "any.idx");
     expect(lines("any.idx")).toEqual(any);
-    done("--cameras", "cameras.json", "--coverage", "-o", "counts.npy");
+    await done("--cameras", "cameras.json", "--coverage", "-o", "counts.npy");
     expect(numpy(read("counts.npy")).data.equals(Buffer.from(cloud.coverage(plain, { looks: 3 }).buffer))).toBe(true);
-    done("--cameras", "cameras.json", "--exponent", "3", "--format", "pixels", "-o", "{name}.csv");
+    await done("--cameras", "cameras.json", "--exponent", "3", "--format", "pixels", "-o", "{name}.csv");
     const { indices, pixels } = cloud.visibleFromCamera(plain[1]!, { exponent: 3 });
     expect(lines("shot 1.csv").length).toBe(indices.length + 1);
     expect(lines("shot 1.csv")[1]!.split(",").map(Number).map(Math.fround).slice(0, 3)).toEqual([
@@ -75,8 +75,8 @@ describe("--cameras", () => {
     ]);
   });
 
-  it("writes COLMAP's file of which images see each point", () => {
-    done("--cameras", "cameras.json", "-o", "seen.vis");
+  it("writes COLMAP's file of which images see each point", async () => {
+    await done("--cameras", "cameras.json", "-o", "seen.vis");
     const rows = cloud.seenBy(plain, { looks: 3 });
     const file = read("seen.vis");
     expect(file.equals(colmapVis(rows))).toBe(true);
@@ -99,17 +99,17 @@ describe("--cameras", () => {
     ["no name", [{ ...cameras[0], image: 5 }], /cameras\[0\]\.image must be a text/],
     ["a name twice", [cameras[0], cameras[0]], /camera 2 \(left\/shot 0\.png\) has a name a second time/],
     ["a bent pose", [{ ...cameras[0], cameraToWorld: new Array(16).fill(1) }], /pose/],
-  ])("%s is refused", (_, content, says) => {
+  ])("%s is refused", async (_, content, says) => {
     write("wrong.json", JSON.stringify(content));
-    expect(refused("--cameras", "wrong.json", "-o", "{name}.idx")).toEqual([1, expect.stringMatching(says)]);
+    expect(await refused("--cameras", "wrong.json", "-o", "{name}.idx")).toEqual([1, expect.stringMatching(says)]);
   });
 });
 
 describe("--images", () => {
   const colors = transfer(cloud, plain, images);
 
-  it("writes all points with their colors, and how many cameras see each", () => {
-    done("--cameras", "cameras.json", "--images", "images", "-o", "colored.ply");
+  it("writes all points with their colors, and how many cameras see each", async () => {
+    await done("--cameras", "cameras.json", "--images", "images", "-o", "colored.ply");
     const file = read("colored.ply");
     const start = file.indexOf("end_header\n") + 11;
     expect(file.toString("latin1", 0, start)).toMatch(
@@ -127,7 +127,7 @@ describe("--images", () => {
   });
 
   it("writes tables, takes labels from gray images, and merges as it is told", async () => {
-    done(
+    await done(
       "--cameras",
       "cameras.json",
       "--images",
@@ -154,7 +154,7 @@ describe("--images", () => {
       const gray = sharp(data, { raw: { width, height, channels: 1 } }).toColourspace("grey16");
       write(`labels/left/shot ${i}.png`, await gray.png().toBuffer());
     }
-    done("--cameras", "cameras.json", "--images", "labels", "--merge", "vote", "-o", "labels.csv");
+    await done("--cameras", "cameras.json", "--images", "labels", "--merge", "vote", "-o", "labels.csv");
     const votes = transfer(cloud, plain, masks, { merge: "vote" });
     expect(lines("labels.csv").slice(1).map(Number)).toEqual([...votes.values]);
     expect(Math.max(...votes.values.filter((value) => value >= 0))).toBe(900);
@@ -184,8 +184,8 @@ describe("--images", () => {
       2,
       /combined with --cameras/,
     ],
-  ])("%j is refused", (args, status, says) => {
-    expect(refused(...args)).toEqual([status, expect.stringMatching(says)]);
+  ])("%j is refused", async (args, status, says) => {
+    expect(await refused(...args)).toEqual([status, expect.stringMatching(says)]);
   });
 
   it("an image of another size, or a broken one, is refused by name", async () => {
@@ -199,11 +199,11 @@ describe("--images", () => {
       );
     }
     const args = ["--cameras", "cameras.json", "--images", "small", "-o", "never.ply"];
-    expect(refused(...args)).toEqual([
+    expect(await refused(...args)).toEqual([
       2,
       expect.stringMatching(/images\[0\] must have the size .* 64 × 48, got 3 × 3/),
     ]);
     write("small/shot 1.png", "no image");
-    expect(refused(...args)).toEqual([1, expect.stringMatching(/small\/shot 1\.png cannot be read/)]);
+    expect(await refused(...args)).toEqual([1, expect.stringMatching(/small\/shot 1\.png cannot be read/)]);
   });
 });

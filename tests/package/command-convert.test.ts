@@ -17,10 +17,10 @@ const FROM = ["--exponent", "9", "--from"];
 it("LAS to PLY and back: coordinates, colors and all columns; what is lost is said", async () => {
   write("ball.las", las(georeferencedBall(600)));
   const before = await readCloud(place("ball.las"));
-  const to = run("ball.las", ...FROM, "-1e6,0,0", "-o", "ball.ply");
+  const to = await run("ball.las", ...FROM, "-1e6,0,0", "-o", "ball.ply");
   expect([to.status, to.stderr]).toEqual([0, expect.stringMatching(/\d+ of 600 points are visible\n$/)]);
   const ply = await readCloud(place("ball.ply"));
-  const back = run("ball.ply", ...FROM, "-1e6,0,0", "-o", "again.las");
+  const back = await run("ball.ply", ...FROM, "-1e6,0,0", "-o", "again.las");
   expect([back.status, back.stderr]).toEqual([0, expect.stringMatching(/left out: digits of coordinates beyond 1e-/)]);
   const after = await readCloud(place("again.las"));
   const rows = ({ positions, colors, columns }: typeof before, exact: boolean) =>
@@ -48,7 +48,7 @@ it("LAZ and E57 to PLY, also packed; PTX to LAS", async () => {
     ["scans.e57.gz", "500005,5400003,900", "gz.ply", 48],
     ["scan.ptx", "7,8,9", "ptx.las", 3],
   ] as const) {
-    const { status, stderr } = run(input, ...FROM, from, "-o", output);
+    const { status, stderr } = await run(input, ...FROM, from, "-o", output);
     expect([status, stderr]).toEqual([0, expect.stringContaining(`of ${total} points are visible`)]);
   }
   const { positions, colors, columns } = await readCloud(place("e57.ply"));
@@ -65,7 +65,7 @@ it("Gaussian splats to LAS, with their base colors; the summary says that they a
     "splats.ply",
     ["ply", "format ascii 1.0", "element vertex 1", ...names.map((name) => `property float ${name}`), "end_header", "1 2 3 0 1 -9", ""].join("\n"), // prettier-ignore
   );
-  const { status, stderr } = run("splats.ply", "--from", "9,9,9", "-o", "splats.las");
+  const { status, stderr } = await run("splats.ply", "--from", "9,9,9", "-o", "splats.las");
   expect([status, stderr]).toEqual([0, expect.stringContaining("1 of 1 points are visible; it holds Gaussian splats")]);
   expect([...(await readCloud(place("splats.las"))).colors!]).toEqual([128, 199, 0]);
 });

@@ -19,9 +19,9 @@ const POINTS = inMillimeters(georeferencedBall(600));
 const VIEWPOINT = [512_345, 5_403_209, 450];
 const visible = new PointCloud(POINTS).visibleFrom(VIEWPOINT, { looks: 3 }).indices;
 
-function filtered(name: string, content: Uint8Array, output: string, ...options: string[]): Buffer {
+async function filtered(name: string, content: Uint8Array, output: string, ...options: string[]): Promise<Buffer> {
   write(name, content);
-  const { stderr, status } = run(name, "--from", VIEWPOINT.join(","), "-o", output, ...options);
+  const { stderr, status } = await run(name, "--from", VIEWPOINT.join(","), "-o", output, ...options);
   expect(status, stderr).toBe(0);
   expect(stderr).toMatch(/^\d+ of \d+ points are visible\n$/);
   return read(output);
@@ -42,8 +42,8 @@ describe("the visible points of a LAS file are a LAS file", () => {
     ["LAS 1.4 with a value of its own", ...twice(las(georeferencedBall(600), { minor: 4, format: 7, extra: "glow" }))],
     ["LAZ 1.2", fixture("ball-12.laz"), las(georeferencedBall(600))],
     ["LAZ 1.4", fixture("ball-14.laz"), las(georeferencedBall(600), { minor: 4, format: 7 })],
-  ])("%s, with all bytes of each point", (_, content, uncompressed) => {
-    const { header, rows } = opened(filtered("ball.laz", content, "out.las"));
+  ])("%s, with all bytes of each point", async (_, content, uncompressed) => {
+    const { header, rows } = opened(await filtered("ball.laz", content, "out.las"));
     const all = opened(Buffer.from(uncompressed)).rows;
     expect(rows.map((row) => row.toString("hex"))).toEqual([...visible].map((i) => all[i]!.toString("hex")));
     const bounds = (pick: typeof Math.min) =>
@@ -53,8 +53,8 @@ describe("the visible points of a LAS file are a LAS file", () => {
     expect([header.pointCount, header.pointCountByReturn[0]]).toEqual([visible.length, visible.length]);
   });
 
-  it("and of a COPC file, in the order of the file", () => {
-    const { header, rows } = opened(filtered("tree.copc.laz", fixture("octree.copc.laz"), "out-tree.las"));
+  it("and of a COPC file, in the order of the file", async () => {
+    const { header, rows } = opened(await filtered("tree.copc.laz", fixture("octree.copc.laz"), "out-tree.las"));
     const everything = inMillimeters(georeferencedBall(3000));
     const expected = new PointCloud(everything).visibleFrom(VIEWPOINT, { looks: 3 }).indices;
     const place = (x: number, y: number, z: number) => [x, y, z].map((value) => value.toFixed(3)).join(" ");
@@ -67,7 +67,7 @@ describe("the visible points of a LAS file are a LAS file", () => {
     expect(header.vlrCount).toBe(0);
   });
 
-  it("the records after the points move with them", () => {
+  it("the records after the points move with them", async () => {
     const plain = las(georeferencedBall(600), { minor: 4, format: 6 });
     const record = Buffer.alloc(60 + 5);
     record.write("LASF_Projection", 2, "latin1");
@@ -78,29 +78,29 @@ describe("the visible points of a LAS file are a LAS file", () => {
     file.writeBigUInt64LE(BigInt(plain.length), 235);
     file.writeUInt32LE(1, 243);
     write("wkt.las", file);
-    expect(run("wkt.las", "--from", VIEWPOINT.join(","), "-o", "out-wkt.las").status).toBe(0);
+    expect((await run("wkt.las", "--from", VIEWPOINT.join(","), "-o", "out-wkt.las")).status).toBe(0);
     const out = read("out-wkt.las");
     const { evlrOffset, evlrCount } = Las.Header.parse(out);
     expect([evlrCount, out.subarray(evlrOffset).equals(record)]).toEqual([1, true]);
   });
 
-  it("a viewpoint in other coordinates is noted", () => {
+  it("a viewpoint in other coordinates is noted", async () => {
     write("far.las", las(georeferencedBall(600)));
     write("far.csv", `name,x,y,z\nnear,${VIEWPOINT.join(",")}\nfar,1,1,1\nfarther,0,0,-1000\n`);
-    const said = (...args: string[]) => run("far.las", ...args, "-o", "far.idx").stderr.split("\n", 2);
-    const [note, summary] = said("--from", "1,1,1.5");
+    const said = async (...args: string[]) => (await run("far.las", ...args, "-o", "far.idx")).stderr.split("\n", 2);
+    const [note, summary] = await said("--from", "1,1,1.5");
     expect(note).toMatch(/^note: the viewpoint is 5,400,000 units from the cloud, whose extent is [\d,.]+$/);
     expect(summary).toMatch(/^\d+ of 600 points are visible$/);
-    const [first] = said("--viewpoints", "far.csv");
+    const [first] = await said("--viewpoints", "far.csv");
     expect(first).toMatch(/^note: the viewpoint far is .* \(of 3 viewpoints, 2 are as far\)$/);
     const cameraToWorld = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 4, 5, 6, 1];
     write("far.json", JSON.stringify({ cameraToWorld, fx: 9, fy: 9, cx: 9, cy: 9, width: 20, height: 20 }));
-    expect(said("--cameras", "far.json")[0]).toMatch(/^note: the camera 1 is 5,400,000 units/);
-    expect(said("--from", VIEWPOINT.join(","))[0]).toMatch(/^\d+ of 600 points/);
+    expect((await said("--cameras", "far.json"))[0]).toMatch(/^note: the camera 1 is 5,400,000 units/);
+    expect((await said("--from", VIEWPOINT.join(",")))[0]).toMatch(/^\d+ of 600 points/);
   });
 
-  it("as indices, too", () => {
-    filtered("list.laz", fixture("ball-14.laz"), "list.idx");
+  it("as indices, too", async () => {
+    await filtered("list.laz", fixture("ball-14.laz"), "list.idx");
     expect(lines("list.idx")).toEqual([...visible].map(String));
   });
 });
@@ -115,9 +115,9 @@ describe("a LAS file that cannot be read", () => {
     ["other.las", Buffer.from("FSAL"), /does not begin like a LAS file/],
     ["formats.laz", edited(laz, 104, 128 + 4, 57), /format 4, which laz-perf cannot decompress/],
   ];
-  it.each(PROBLEMS)("%s", (name, content, says) => {
+  it.each(PROBLEMS)("%s", async (name, content, says) => {
     write(name, content);
-    const { stderr, status } = run(name, "--from", "0,0,5", "-o", "nothing.las");
+    const { stderr, status } = await run(name, "--from", "0,0,5", "-o", "nothing.las");
     expect([status, stderr]).toEqual([1, expect.stringMatching(says)]);
     expect(stderr).toContain(`${name} cannot be read: `);
     expect(stderr.trim().split("\n")).toHaveLength(1);
@@ -142,17 +142,17 @@ describe("a LAS file that cannot be read", () => {
     }
   });
 
-  it("LAZ is not written, and columns cannot be chosen", () => {
+  it("LAZ is not written, and columns cannot be chosen", async () => {
     write("ball.laz", laz);
-    const refused = (...args: string[]) => {
-      const { stderr, status } = run(...args);
+    const refused = async (...args: string[]) => {
+      const { stderr, status } = await run(...args);
       expect(status).toBe(2);
       return stderr;
     };
-    expect(refused("ball.laz", "--from", "0,0,5", "-o", "out.laz")).toMatch(
+    expect(await refused("ball.laz", "--from", "0,0,5", "-o", "out.laz")).toMatch(
       /out\.laz must end with \.las, \.ply: points of ball\.laz are not written to \.laz/,
     );
-    expect(refused("ball.laz", "--from", "0,0,5", "-o", "out.las", "--columns", "1,2,3")).toMatch(/no meaning/);
+    expect(await refused("ball.laz", "--from", "0,0,5", "-o", "out.las", "--columns", "1,2,3")).toMatch(/no meaning/);
   });
 });
 

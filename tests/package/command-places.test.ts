@@ -16,7 +16,7 @@ import {
   writeSync,
 } from "node:fs";
 import { setTimeout as wait } from "node:timers/promises";
-import { describe, expect, it } from "vitest";
+import { beforeAll, describe, expect, it } from "vitest";
 
 import { COMMAND, commandIn } from "./command-support";
 
@@ -31,9 +31,9 @@ const leftovers = () => readdirSync(scratch).filter((name) => name.endsWith(".pa
 const isUnix = process.platform !== "win32";
 
 describe.runIf(isUnix)("a path that is not a regular file", () => {
-  it("a FIFO is not read, and the command does not wait for it", () => {
+  it("a FIFO is not read, and the command does not wait for it", async () => {
     expect(made("mkfifo", "pipe-in.xyz")).toBe(true);
-    const { stderr, status } = toFile("out.xyz", "pipe-in.xyz");
+    const { stderr, status } = await toFile("out.xyz", "pipe-in.xyz");
     expect([status, stderr]).toEqual([
       1,
       "hidden-point-removal: pipe-in.xyz cannot be read: it is not a regular file\n",
@@ -45,16 +45,16 @@ describe.runIf(isUnix)("a path that is not a regular file", () => {
     const reader = spawn("cat", ["pipe.xyz"], { cwd: scratch });
     let text = "";
     reader.stdout.on("data", (data: Buffer) => (text += data.toString()));
-    const { stderr, status } = toFile("pipe.xyz");
+    const { stderr, status } = await toFile("pipe.xyz");
     expect(status, stderr).toBe(0);
     await once(reader, "close");
     expect(text).toBe("0 0 2\n");
     expect(lstatSync(place("pipe.xyz")).isFIFO()).toBe(true);
   });
 
-  it("a FIFO that nobody reads is refused, and stays", () => {
+  it("a FIFO that nobody reads is refused, and stays", async () => {
     expect(made("mkfifo", "lonely.xyz")).toBe(true);
-    const { stderr, status } = toFile("lonely.xyz");
+    const { stderr, status } = await toFile("lonely.xyz");
     expect([status, stderr]).toEqual([
       1,
       "hidden-point-removal: lonely.xyz cannot be written: it is a FIFO that no program reads\n",
@@ -62,7 +62,7 @@ describe.runIf(isUnix)("a path that is not a regular file", () => {
     expect(lstatSync(place("lonely.xyz")).isFIFO()).toBe(true);
   });
 
-  it("a device is written to, and stays", ({ skip }) => {
+  it("a device is written to, and stays", async ({ skip }) => {
     // A second null device. Only root may make it, and not on every system.
     if (!made("mknod", "null.xyz", "c", "1", "3")) skip();
     try {
@@ -72,12 +72,12 @@ describe.runIf(isUnix)("a path that is not a regular file", () => {
     }
     symlinkSync("null.xyz", place("link-to-null.xyz"));
     for (const name of ["null.xyz", "link-to-null.xyz"]) {
-      const { stderr, status } = toFile(name);
+      const { stderr, status } = await toFile(name);
       expect(status, stderr).toBe(0);
       expect(statSync(place(name)).isCharacterDevice()).toBe(true);
     }
     expect(lstatSync(place("link-to-null.xyz")).isSymbolicLink()).toBe(true);
-    expect(toFile("out.xyz", "null.xyz").stderr).toMatch(/null\.xyz cannot be read: it is not a regular file/);
+    expect((await toFile("out.xyz", "null.xyz")).stderr).toMatch(/null\.xyz cannot be read: it is not a regular file/);
   });
 
   it("a link to standard output is followed", () => {
@@ -87,28 +87,28 @@ describe.runIf(isUnix)("a path that is not a regular file", () => {
     expect(readlinkSync(place("stdout.xyz"))).toBe("/dev/stdout");
   });
 
-  it("a disk is not written to", ({ skip }) => {
+  it("a disk is not written to", async ({ skip }) => {
     // No disk has this number, so opening it would fail.
     if (!made("mknod", "disk.xyz", "b", "240", "250")) skip();
-    expect(toFile("disk.xyz").stderr).toBe("hidden-point-removal: disk.xyz cannot be written: it is a disk\n");
+    expect((await toFile("disk.xyz")).stderr).toBe("hidden-point-removal: disk.xyz cannot be written: it is a disk\n");
     expect(lstatSync(place("disk.xyz")).isBlockDevice()).toBe(true);
   });
 
-  it("a link to a missing file makes that file", () => {
+  it("a link to a missing file makes that file", async () => {
     mkdirSync(place("folder"));
     symlinkSync("folder/new.xyz", place("dangling.xyz"));
     symlinkSync("dangling.xyz", place("twice.xyz"));
-    expect(toFile("twice.xyz").status).toBe(0);
+    expect((await toFile("twice.xyz")).status).toBe(0);
     expect(readlinkSync(place("dangling.xyz"))).toBe("folder/new.xyz");
     expect(readlinkSync(place("twice.xyz"))).toBe("dangling.xyz");
     expect(readFileSync(place("folder/new.xyz"), "utf8")).toBe("0 0 2\n");
   });
 
-  it("links that lead nowhere are refused, and stay", () => {
+  it("links that lead nowhere are refused, and stay", async () => {
     symlinkSync("round.xyz", place("round.xyz"));
     symlinkSync("missing/new.xyz", place("astray.xyz"));
-    expect(toFile("round.xyz").stderr).toMatch(/round\.xyz cannot be written: its links lead to one another/);
-    expect(toFile("astray.xyz").stderr).toBe(
+    expect((await toFile("round.xyz")).stderr).toMatch(/round\.xyz cannot be written: its links lead to one another/);
+    expect((await toFile("astray.xyz")).stderr).toBe(
       "hidden-point-removal: astray.xyz cannot be written: no such file or directory\n",
     );
     for (const name of ["round.xyz", "astray.xyz"]) {
@@ -117,9 +117,9 @@ describe.runIf(isUnix)("a path that is not a regular file", () => {
     expect(leftovers()).toEqual([]);
   });
 
-  it("a directory is refused with a message that says so", () => {
+  it("a directory is refused with a message that says so", async () => {
     mkdirSync(place("directory.xyz"));
-    expect(toFile("directory.xyz").stderr).toBe(
+    expect((await toFile("directory.xyz")).stderr).toBe(
       "hidden-point-removal: directory.xyz cannot be written: it is a directory\n",
     );
   });
@@ -127,11 +127,11 @@ describe.runIf(isUnix)("a path that is not a regular file", () => {
 
 describe.runIf(isUnix)("a command that is stopped", () => {
   /** Writes 40 MB, so that the command writes in several pieces. Lines of 400 kB keep the number of points small. */
-  function writeLarge(): void {
+  beforeAll(() => {
     const file = openSync(place("large.xyz"), "w");
     for (let i = 0; i < 100; i++) writeSync(file, `0 ${i} 1 ${"word".repeat(100_000)}\n`);
     closeSync(file);
-  }
+  });
 
   async function partOf(child: ChildProcess): Promise<string | undefined> {
     while (child.exitCode === null && child.signalCode === null) {
@@ -143,7 +143,6 @@ describe.runIf(isUnix)("a command that is stopped", () => {
   }
 
   it.each(["SIGINT", "SIGTERM", "SIGHUP"] as const)("leaves nothing behind after %s", async (signal) => {
-    writeLarge();
     let hit = 0;
     // The unfinished file exists for some milliseconds only. Some tries come too late.
     for (let tries = 0; tries < 20 && hit === 0; tries++) {
@@ -173,10 +172,10 @@ describe("--columns", () => {
     ["columns.csv", "a,b,c,d\n7,0,0,1\n7,0,0,2\n"],
   ];
 
-  it.each(FILES)("chooses x, y and z in %s by names and by numbers, and says so", (name, content) => {
+  it.each(FILES)("chooses x, y and z in %s by names and by numbers, and says so", async (name, content) => {
     write(name, content);
     for (const columns of ["b,c,d", "2,3,4", "B,C,4"]) {
-      const { stderr, status } = run(name, "--from", "0,0,5", "-o", `out-${name}`, "--columns", columns);
+      const { stderr, status } = await run(name, "--from", "0,0,5", "-o", `out-${name}`, "--columns", columns);
       expect([status, stderr]).toEqual([
         0,
         name.endsWith(".csv")
@@ -185,14 +184,14 @@ describe("--columns", () => {
       ]);
       expect(readFileSync(place(`out-${name}`), "utf8")).toMatch(/7[ ,]0[ ,]0[ ,]2\n$/);
     }
-    const { stderr, status } = run(name, "--from", "0,0,5", "-o", `out-${name}`, "--columns", "b,c,w");
+    const { stderr, status } = await run(name, "--from", "0,0,5", "-o", `out-${name}`, "--columns", "b,c,w");
     expect(status).toBe(1);
     expect(stderr).toContain(`${name} cannot be read: it has no column named "w", but "a b c d"`);
-    expect(run(name, "--from", "0,0,5", "-o", `out-${name}`).status).toBe(1);
+    expect((await run(name, "--from", "0,0,5", "-o", `out-${name}`)).status).toBe(1);
   });
 
-  it.each(["1,2", "1,2,3,4", "1,1,2", "0,1,2", "-1,2,3", "a,,b", ""])("is refused as %j", (columns) => {
-    const { stderr, status } = run("in.xyz", "--from", "0,0,5", "-o", "out.xyz", `--columns=${columns}`);
+  it.each(["1,2", "1,2,3,4", "1,1,2", "0,1,2", "-1,2,3", "a,,b", ""])("is refused as %j", async (columns) => {
+    const { stderr, status } = await run("in.xyz", "--from", "0,0,5", "-o", "out.xyz", `--columns=${columns}`);
     expect([status, /--columns needs three different columns/.test(stderr)]).toEqual([2, true]);
   });
 });

@@ -1,10 +1,14 @@
-// Runs the command as npx runs it, in a folder of its own.
+// Runs the command in a folder of its own.
 import { spawnSync } from "node:child_process";
 import { mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
+import { pathToFileURL } from "node:url";
+
+import type * as Command from "../../src/ts/cli/command";
 
 const root = join(import.meta.dirname, "../..");
 export const COMMAND = join(root, "dist/cli/main.js");
+const { command } = (await import(pathToFileURL(join(root, "dist/cli/command.js")).href)) as typeof Command;
 
 export function commandIn(folder: string) {
   const scratch = join(root, "target", folder);
@@ -18,7 +22,17 @@ export function commandIn(folder: string) {
     },
     read: (name: string) => readFileSync(place(name)),
     lines: (name: string) => readFileSync(place(name), "utf8").split("\n").slice(0, -1),
-    run: (...args: string[]) => {
+    /** Runs it in this process: a new one takes longer than most questions. */
+    run: async (...args: string[]) => {
+      const before = process.cwd();
+      process.chdir(scratch);
+      let stderr = "";
+      const status = await command(args, { write: (text) => (stderr += text) });
+      process.chdir(before);
+      return { stderr, status };
+    },
+    /** Runs it as npx runs it. */
+    spawned: (...args: string[]) => {
       const { stdout, stderr, status } = spawnSync(process.execPath, [COMMAND, ...args], {
         cwd: scratch,
         // A command that waits for ever fails; the test does not hang.

@@ -9,7 +9,7 @@ import { commandIn, numpy } from "./command-support";
 import { bumpySphere, readyPackage } from "./support";
 
 const { PointCloud, cameraFromPose, intrinsicsFromFieldOfView } = await readyPackage();
-const { run, write, read, lines, place } = commandIn("command-views");
+const { run, spawned, write, read, lines, place } = commandIn("command-views");
 
 const COUNT = 1500;
 const sphere = bumpySphere(11, COUNT);
@@ -21,8 +21,8 @@ const FROM = ["in.xyz", "--from", VIEWPOINT.join(",")];
 const PLACES = { front: [0, 0, 4], back: [0, 0.5, -4], inside: [0.1, 0, 0] };
 write("places.csv", `name,x,y,z\n${Object.entries(PLACES).map(([name, at]) => `${name},${at.join(",")}\n`).join("")}`); // prettier-ignore
 
-function done(...args: string[]): void {
-  const { stderr, status } = run(...args);
+async function done(...args: string[]): Promise<void> {
+  const { stderr, status } = await run(...args);
   expect(status, stderr).toBe(0);
 }
 
@@ -53,34 +53,34 @@ describe("the options of a view have the effect of the library's", () => {
     [["--vote", "8"], { looks: 3, vote: 8 }],
   ];
   const usual = [...cloud.visibleFrom(VIEWPOINT).indices];
-  it.each(OPTIONS)("%j", (args, options) => {
-    done(...FROM, ...args, "-o", "view.idx");
+  it.each(OPTIONS)("%j", async (args, options) => {
+    await done(...FROM, ...args, "-o", "view.idx");
     const expected = [...cloud.visibleFrom(VIEWPOINT, options).indices];
     expect(numbers("view.idx")).toEqual(expected);
     expect(expected).not.toEqual(usual);
   });
 
-  it("--radius auto, --exponent auto, --inversion spherical and --looks 0 ask for the operator alone", () => {
+  it("--radius auto, --exponent auto, --inversion spherical and --looks 0 ask for the operator alone", async () => {
     for (const args of [
       ["--radius", "auto"],
       ["--exponent", "auto"],
       ["--inversion", "spherical"],
       ["--looks", "0"],
     ]) {
-      done(...FROM, ...args, "-o", "view.idx");
+      await done(...FROM, ...args, "-o", "view.idx");
       expect(numbers("view.idx")).toEqual(usual);
     }
   });
 
-  it("--score-threshold, and the scores themselves", () => {
+  it("--score-threshold, and the scores themselves", async () => {
     const { scores } = cloud.visibleFrom(VIEWPOINT, { looks: 3, scores: true });
-    done(...FROM, "--looks", "3", "--format", "scores", "-o", "scores.npy");
+    await done(...FROM, "--looks", "3", "--format", "scores", "-o", "scores.npy");
     const { header, data } = numpy(read("scores.npy"));
     expect(header).toBe(`{'descr': '<f4', 'fortran_order': False, 'shape': (${COUNT},), }`);
     expect(data.equals(Buffer.from(scores!.buffer))).toBe(true);
     const above = (threshold: number) => [...scores!.keys()].filter((i) => scores![i]! >= threshold);
     for (const threshold of [0.25, 0.75]) {
-      done(...FROM, "--looks", "3", "--score-threshold", String(threshold), "-o", "view.idx");
+      await done(...FROM, "--looks", "3", "--score-threshold", String(threshold), "-o", "view.idx");
       expect(numbers("view.idx")).toEqual(above(threshold));
     }
     expect(above(0.25).length).toBeGreaterThan(above(0.75).length);
@@ -89,14 +89,14 @@ describe("the options of a view have the effect of the library's", () => {
 
 describe("masks", () => {
   const mask = cloud.visibleFrom(VIEWPOINT, { looks: 3 }).mask();
-  it("are text, or a mask of NumPy", () => {
-    done(...FROM, "-o", "seen.mask");
+  it("are text, or a mask of NumPy", async () => {
+    await done(...FROM, "-o", "seen.mask");
     expect(numbers("seen.mask")).toEqual([...mask]);
-    done(...FROM, "-o", "seen.npy");
+    await done(...FROM, "-o", "seen.npy");
     const { header, data } = numpy(read("seen.npy"));
     expect(header).toBe(`{'descr': '|b1', 'fortran_order': False, 'shape': (${COUNT},), }`);
     expect([...data]).toEqual([...mask]);
-    expect(run(...FROM, "--format", "mask", "-o", "-").stdout.toString()).toBe([...mask, ""].join("\n"));
+    expect(spawned(...FROM, "--format", "mask", "-o", "-").stdout.toString()).toBe([...mask, ""].join("\n"));
   });
 });
 
@@ -108,9 +108,9 @@ describe("--cameras with one camera", () => {
   write("camera.json", JSON.stringify(camera));
   const view = cloud.visibleFromCamera(camera, { looks: 3 });
 
-  it("writes index, pixel and depth of each visible point in the image", () => {
+  it("writes index, pixel and depth of each visible point in the image", async () => {
     expect(view.count).toBeGreaterThan(50);
-    done("in.xyz", "--cameras", "camera.json", "--format", "pixels", "-o", "seen.csv");
+    await done("in.xyz", "--cameras", "camera.json", "--format", "pixels", "-o", "seen.csv");
     const [names, ...rows] = lines("seen.csv");
     expect(names).toBe("index,u,v,depth");
     const found = rows.map((row) => row.split(",").map(Number));
@@ -118,18 +118,18 @@ describe("--cameras with one camera", () => {
     found.forEach(([, u, v, depth], i) => {
       expect([u!, v!, depth!].map(Math.fround)).toEqual([view.pixels[2 * i], view.pixels[2 * i + 1], view.depths[i]]);
     });
-    done("in.xyz", "--cameras", "camera.json", "--format", "pixels", "-o", "seen-camera.npy", "--looks", "2");
+    await done("in.xyz", "--cameras", "camera.json", "--format", "pixels", "-o", "seen-camera.npy", "--looks", "2");
     const looked = cloud.visibleFromCamera(camera, { looks: 2 });
     const { header, data } = numpy(read("seen-camera.npy"));
     expect(header).toContain(`'<f8', 'fortran_order': False, 'shape': (${looked.count}, 4)`);
     expect(looked.indices[7]).toBe(data.readDoubleLE(8 * 4 * 7));
   });
 
-  it("writes the points themselves, or their indices, if that is wanted", () => {
-    done("in.xyz", "--cameras", "camera.json", "-o", "seen.xyz");
+  it("writes the points themselves, or their indices, if that is wanted", async () => {
+    await done("in.xyz", "--cameras", "camera.json", "-o", "seen.xyz");
     const all = lines("in.xyz");
     expect(lines("seen.xyz")).toEqual([...view.indices].map((i) => all[i]));
-    done("in.xyz", "--cameras", "camera.json", "-o", "seen.idx");
+    await done("in.xyz", "--cameras", "camera.json", "-o", "seen.idx");
     expect(numbers("seen.idx")).toEqual([...view.indices]);
   });
 
@@ -138,35 +138,45 @@ describe("--cameras with one camera", () => {
     ["bent.json", JSON.stringify({ ...camera, cameraToWorld: new Array(16).fill(1) }), /pose/],
     ["odd.json", JSON.stringify({ ...camera, zoom: 2 }), /unknown option "zoom"/],
     ["sizeless.json", JSON.stringify({ ...camera, width: 0 }), /width/],
-  ])("%s is refused", (name, content, says) => {
+  ])("%s is refused", async (name, content, says) => {
     write(name, content);
-    const { stderr, status } = run("in.xyz", "--cameras", name, "--format", "pixels", "-o", "seen.csv");
+    const { stderr, status } = await run("in.xyz", "--cameras", name, "--format", "pixels", "-o", "seen.csv");
     expect([status, stderr]).toEqual([1, expect.stringMatching(says)]);
   });
 });
 
 describe("--viewpoints", () => {
   const places = Object.values(PLACES);
-  it("writes what any of them sees", () => {
-    done("in.xyz", "--viewpoints", "places.csv", "--exponent", "2", "-o", "any.idx");
+  it("writes what any of them sees", async () => {
+    await done("in.xyz", "--viewpoints", "places.csv", "--exponent", "2", "-o", "any.idx");
     expect(numbers("any.idx")).toEqual([...cloud.visibleFromAny(places, { exponent: 2 }).indices]);
   });
 
-  it("--coverage counts the viewpoints that see each point", () => {
-    done("in.xyz", "--viewpoints", "places.csv", "--coverage", "-o", "counts.txt");
+  it("--coverage counts the viewpoints that see each point", async () => {
+    await done("in.xyz", "--viewpoints", "places.csv", "--coverage", "-o", "counts.txt");
     const counts = cloud.coverage(places, { looks: 3 });
     expect(numbers("counts.txt")).toEqual([...counts]);
-    done("in.xyz", "--viewpoints", "places.csv", "--coverage", "-o", "counts.npy");
+    await done("in.xyz", "--viewpoints", "places.csv", "--coverage", "-o", "counts.npy");
     expect(numpy(read("counts.npy")).data.equals(Buffer.from(counts.buffer))).toBe(true);
   });
 
-  it("{name} in the name of the output makes one file for each", () => {
-    done("in.xyz", "--viewpoints", "places.csv", "-o", "seen-{name}.xyz");
+  it("{name} in the name of the output makes one file for each", async () => {
+    await done("in.xyz", "--viewpoints", "places.csv", "-o", "seen-{name}.xyz");
     const all = lines("in.xyz");
     for (const [name, at] of Object.entries(PLACES)) {
       expect(lines(`seen-${name}.xyz`)).toEqual([...cloud.visibleFrom(at, { looks: 3 }).indices].map((i) => all[i]));
     }
-    done("in.xyz", "--viewpoints", "places.csv", "--looks", "3", "--score-threshold", "0.6", "-o", "sure-{name}.mask");
+    await done(
+      "in.xyz",
+      "--viewpoints",
+      "places.csv",
+      "--looks",
+      "3",
+      "--score-threshold",
+      "0.6",
+      "-o",
+      "sure-{name}.mask",
+    );
     const { scores } = cloud.visibleFrom(PLACES.back, { looks: 3, scores: true });
     expect(numbers("sure-back.mask")).toEqual([...scores!].map((score) => (score >= Math.fround(0.6) ? 1 : 0)));
   });
@@ -176,9 +186,9 @@ describe("--viewpoints", () => {
     ["0 0 4\n0 0.5 -4\n0.1 0 0\n", ["1", "2", "3"]],
     ["# by hand\nfront;0;0;4\nback;0;0.5;-4\ninside;0.1;0;0\n", ["front", "back", "inside"]],
     ["z,name,x,y\n4,10,0,0\n-4,20,0,0.5\n0,30,0.1,0\n", ["10", "20", "30"]],
-  ])("reads %j", (content, names) => {
+  ])("reads %j", async (content, names) => {
     write("table.csv", content);
-    const { stderr } = run("in.xyz", "--viewpoints", "table.csv", "-o", "each-{name}.idx");
+    const { stderr } = await run("in.xyz", "--viewpoints", "table.csv", "-o", "each-{name}.idx");
     names.forEach((name, i) => {
       expect(numbers(`each-${name}.idx`)).toEqual([...cloud.visibleFrom(places[i]!, { looks: 3 }).indices]);
       expect(stderr).toContain(`points are visible from ${name}`);
@@ -192,19 +202,19 @@ describe("--viewpoints", () => {
     ["x,y,z\n0,0,nan\n", /line 2 has a coordinate that is not finite/],
     ["x,y\n0,0\n", /line 1 is neither three numbers nor names/],
     ["", /no line of three numbers/],
-  ])("refuses %j", (content, says) => {
+  ])("refuses %j", async (content, says) => {
     write("wrong.csv", content);
-    const { stderr, status } = run("in.xyz", "--viewpoints", "wrong.csv", "-o", "each-{name}.idx");
+    const { stderr, status } = await run("in.xyz", "--viewpoints", "wrong.csv", "-o", "each-{name}.idx");
     expect([status, stderr]).toEqual([1, expect.stringMatching(says)]);
     expect(stderr).toContain("wrong.csv cannot be read: ");
   });
 });
 
 describe("--progress", () => {
-  it("writes lines where there is no terminal", () => {
-    const { stderr } = run(...FROM, "--progress", "-o", "view.idx");
+  it("writes lines where there is no terminal", async () => {
+    const { stderr } = await run(...FROM, "--progress", "-o", "view.idx");
     expect(stderr.split("\n")).toEqual(expect.arrayContaining(["20 % understanding", "60 % looking"]));
-    expect(run(...FROM, "-o", "view.idx").stderr).toMatch(/^\d+ of 1500 points are visible.*\n$/);
+    expect((await run(...FROM, "-o", "view.idx")).stderr).toMatch(/^\d+ of 1500 points are visible.*\n$/);
   });
 });
 
@@ -250,22 +260,22 @@ describe("combinations without a meaning", () => {
     expect(refused(...args)).toMatch(says);
   });
 
-  it("more neighbors than the cloud has are wrong usage, too", () => {
-    const { stderr, status } = run(...FROM, "--denoise", "1500", "-o", "never.xyz");
+  it("more neighbors than the cloud has are wrong usage, too", async () => {
+    const { stderr, status } = await run(...FROM, "--denoise", "1500", "-o", "never.xyz");
     expect([status, stderr]).toEqual([2, expect.stringMatching(/denoise must be from 1 to 1499/)]);
     expect(existsSync(place("never.xyz"))).toBe(false);
   });
 
-  it("a radius that is too small for the cloud is not wrong usage", () => {
-    const { stderr, status } = run(...FROM, "--radius", "1", "-o", "never.xyz");
+  it("a radius that is too small for the cloud is not wrong usage", async () => {
+    const { stderr, status } = await run(...FROM, "--radius", "1", "-o", "never.xyz");
     expect([status, stderr]).toEqual([1, expect.stringMatching(/radius 1 is smaller than the distance.*\(radius\)/)]);
   });
 });
 
 describe("--workers", () => {
-  it("changes no answer", () => {
-    done(...FROM, "--exponent", "2", "-o", "one.idx");
-    done(...FROM, "--exponent", "2", "--workers", "3", "-o", "three.idx");
+  it("changes no answer", async () => {
+    await done(...FROM, "--exponent", "2", "-o", "one.idx");
+    await done(...FROM, "--exponent", "2", "--workers", "3", "-o", "three.idx");
     expect(numbers("three.idx")).toEqual(numbers("one.idx"));
   });
 
