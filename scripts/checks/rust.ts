@@ -8,12 +8,7 @@ import { roomsCheck } from "./rooms.js";
 const DENY_WARNINGS = ["--", "-D", "warnings"];
 const NO_STD = "--no-default-features";
 const ON_WASM = ["--target", WASM_TARGET];
-
-/**
- * The builds of tests/consumers/crate, a library: nothing is linked, so a check finds as much. The bare target has no std.
- * On WebAssembly the module of the package is such a user.
- */
-const KINDS_OF_USERS = [[], ["--target", BARE_TARGET, NO_STD]];
+const ON_BARE = ["--target", BARE_TARGET];
 
 export const rustChecks: Check[] = [
   {
@@ -39,26 +34,13 @@ export const rustChecks: Check[] = [
       ),
   },
   {
-    title: "Rust: a crate that depends on this one",
-    part: "core",
-    needs: [SETUP],
-    locks: "debug",
-    run: async () => {
-      const outcomes: Outcome[] = [];
-      for (const args of KINDS_OF_USERS) {
-        outcomes.push(await checkCommand("cargo", ["check", "--locked", "--package", "dependent", ...args]));
-      }
-      return sum(outcomes);
-    },
-  },
-  {
     title: "Rust: formatting",
     part: "format",
     needs: [SETUP],
     run: () => checkCommand("cargo", ["fmt", "--all", "--check"]),
   },
   {
-    title: "Rust: lints, every target and feature",
+    title: "Rust: lints, every feature, with and without std",
     part: "lint",
     needs: [SETUP],
     locks: "debug",
@@ -66,9 +48,10 @@ export const rustChecks: Check[] = [
       const clippy = (...what: string[]) => checkCommand("cargo", ["clippy", "--locked", ...what, ...DENY_WARNINGS]);
       return sum([
         await clippy("--workspace", "--all-targets", "--all-features"),
-        await clippy("--lib", NO_STD),
-        // The small module. What only WebAssembly has is the choice of one thread (base/threads).
-        await clippy("--lib", NO_STD, "--features", "lite", ...ON_WASM),
+        // A target without std, and a crate that depends on this one there.
+        await clippy("--package", "hidden-point-removal", "--package", "dependent", "--lib", NO_STD, ...ON_BARE),
+        // The small module, without --target: that would compile every macro again.
+        await clippy("--lib", NO_STD, "--features", "lite"),
       ]);
     },
   },
