@@ -8,7 +8,7 @@ export const PARTS = {
   python: "the Python package",
   types: "the TypeScript of package, page, tests and scripts",
   lint: "clippy and oxlint",
-  format: "rustfmt and prettier",
+  format: "rustfmt and oxfmt",
   docs: "rustdoc and typedoc",
   packaging: "the crate and the npm package as they would be published, and users' projects",
   supply: "licenses and sources of everything that is built in",

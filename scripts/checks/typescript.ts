@@ -35,7 +35,7 @@ export const typescriptChecks: Check[] = [
   {
     title: "TypeScript, CSS, HTML: formatting",
     part: "format",
-    run: () => checkCommand("prettier", ["--check", "."]),
+    run: () => checkCommand("oxfmt", ["--check"]),
   },
   {
     title: "TypeScript: documentation",

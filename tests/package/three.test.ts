@@ -241,8 +241,7 @@ describe.each(VERSIONS)("with %s", (name, load) => {
       Float32Array.from({ length: 7 * 1000 }, () => random() - 0.5),
       7,
     );
-    type Attribute =
-      InstanceType<Adapter["THREE"]["BufferAttribute"]> | InstanceType<Adapter["THREE"]["InterleavedBufferAttribute"]>;
+    type Attribute = InstanceType<Adapter["THREE"]["BufferAttribute" | "InterleavedBufferAttribute"]>;
     const attributes: Attribute[] = [
       new THREE.BufferAttribute(doubles, 3),
       new THREE.InterleavedBufferAttribute(interleaved, 3, 2),

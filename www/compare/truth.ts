@@ -10,7 +10,10 @@ export interface TruthQuestion {
 }
 
 export type TruthReply =
-  { kind: "progress"; share: number } | { kind: "seen"; seen: Uint8Array } | { kind: "problem"; sentence: string };
+  | { kind: "progress"; share: number }
+  // 1 for each point that a ray reaches.
+  | { kind: "seen"; seen: Uint8Array }
+  | { kind: "problem"; sentence: string };
 
 /**
  * Traces rays to the true surface in a worker of its own. Resolves with 1 for each point that a ray from the viewpoint

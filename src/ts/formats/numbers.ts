@@ -1,6 +1,5 @@
 /** The types of numbers in files. */
-export type NumberType =
-  "int8" | "uint8" | "int16" | "uint16" | "int32" | "uint32" | "int64" | "uint64" | "float32" | "float64";
+export type NumberType = `${"int" | "uint"}${8 | 16 | 32 | 64}` | `float${32 | 64}`;
 
 /** Numbers of one type. They have as many bytes as in the file. */
 export type Values =

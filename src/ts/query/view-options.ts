@@ -18,11 +18,15 @@ export type RadiusRule = "auto" | "search" | "opposite";
 export type Inversion = "spherical" | { power: number } | { exponential: number | "auto" };
 
 /**
- * The inversion of an answer, with numbers only. With `looks`, it holds the c of each look, from
- * tight to loose. This last form is not accepted as an option: use the option `looks` for it.
+ * The inversion of an answer, with numbers only. With `looks`, it holds the c of each look.
+ * This last form is not accepted as an option: use the option `looks` for it.
  */
 export type ResolvedInversion =
-  "spherical" | { readonly power: number } | { readonly exponential: number } | { readonly looks: readonly number[] };
+  | "spherical"
+  | { readonly power: number }
+  | { readonly exponential: number }
+  // From tight to loose.
+  | { readonly looks: readonly number[] };
 
 /**
  * How one view is computed. At most one of `radius` and `exponent` may be given. With an inversion by

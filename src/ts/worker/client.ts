@@ -409,8 +409,7 @@ function giveAway(
     if (!isFloatArray(positions)) {
       throw new TypeError("an array of numbers has no buffer");
     }
-    return structuredClone(numbers, { transfer: [numbers.buffer as ArrayBuffer] }) as
-      Float32Array<ArrayBuffer> | Float64Array<ArrayBuffer>;
+    return structuredClone(numbers, { transfer: [numbers.buffer as ArrayBuffer] }) as ReturnType<typeof giveAway>;
   } catch (cause) {
     throw new HprError("option", `transfer is not possible for these positions: ${String(cause)}`, {
       cause,

@@ -64,7 +64,10 @@ export function isReplied({ kind }: Request): boolean {
 }
 
 export type Reply<Value = unknown> =
-  { value: Value } | { error: { code: HprErrorCode; message: string } } | { abandoned: true };
+  | { value: Value }
+  | { error: { code: HprErrorCode; message: string } }
+  // Nobody waits for the answer any more.
+  | { abandoned: true };
 
 /** A request or a reply, with the cloud that it is about: several clouds may share a worker. */
 export interface Letter<Content = unknown> {
