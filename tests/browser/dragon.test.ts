@@ -1,18 +1,6 @@
 import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
-import { heldBack, hold, holdable, release } from "./held.js";
-import {
-  addressWritten,
-  answered,
-  answerInNode,
-  drag,
-  dragonPositions,
-  openReady,
-  refiltered,
-  said,
-  status,
-  upToDate,
-} from "./support.js";
+import { addressWritten, answerInNode, drag, dragonPositions, openReady, refiltered, said, status } from "./support.js";
 
 /** How many frames are drawn until the next answer. */
 function framesToAnswer(page: Page): Promise<number> {
@@ -58,30 +46,4 @@ test("the page opens on the dragon, goes on drawing while it is asked, and every
   expect(second.viewpoint).not.toEqual(first.viewpoint);
   expect(second.visible).not.toBe(first.visible);
   expect(second).toMatchObject(await answerInNode(positions, second));
-});
-
-test("a slow question from an old viewpoint does not delay the next answer", async () => {
-  const page = await openReady("?sample=dragon_res3&radius=opposite", {}, holdable);
-  const first = await upToDate(page);
-  expect(first.evaluations).toBeGreaterThan(10);
-  // The camera rests until the slow rule is asked, which needs about 40 hulls. It is asked in a worker of its own. This
-  // worker is held back, so that the camera surely moves before the answer.
-  await hold(page, "others");
-  await page.locator("#view").press("ArrowLeft");
-  const quick = await answered(page, first);
-  expect(quick.evaluations).toBe(0);
-  await heldBack(page);
-  await page.locator("#view").press("ArrowLeft");
-  const next = await answered(page, quick);
-  expect(next.evaluations).toBe(0);
-  expect(next.viewpoint).not.toEqual(quick.viewpoint);
-  // Then the rule is asked at the place where the camera rests. The answer for the old place is not shown.
-  await release(page);
-  const last = await upToDate(page);
-  expect(last).toMatchObject({
-    viewpoint: next.viewpoint,
-    refilters: next.refilters + 1,
-    ...(await answerInNode(dragonPositions("_res3"), next, { radius: "opposite" })),
-  });
-  expect(last.evaluations).toBeGreaterThan(10);
 });

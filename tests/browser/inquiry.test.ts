@@ -123,14 +123,6 @@ test("the first view is answered by a draft, one hull and looks; a move by maps,
   expect(await scene.kinds(250)).toEqual(["looks"]);
 });
 
-test("what a map cannot tell is answered by drafts while the view moves", async () => {
-  const scene = await Scene.of(100_000, { looks: 0, radius: { rule: "search" } });
-  scene.asked.length = 0;
-  await scene.kinds(250);
-  await scene.move(1);
-  expect((await scene.kinds(9))[0]).toBe("draft");
-});
-
 test("a small cloud has no drafts", async () => {
   const small = await Scene.of(1000);
   expect([small.asked.splice(0)[0]!.kind, ...(await small.kinds(250))]).toEqual(["operator", "looks"]);

@@ -1,16 +1,6 @@
 import type { VisibilityOptions } from "hidden-point-removal";
 import { expect, test } from "vitest";
-import {
-  answerInNode,
-  drag,
-  dragonPositions,
-  inNode,
-  openReady,
-  status,
-  type Status,
-  unfold,
-  upToDate,
-} from "./support.js";
+import { dragonPositions, inNode, openReady, status, type Status, unfold, upToDate } from "./support.js";
 
 const SAMPLE = "?sample=dragon_res4&looks=0";
 const positions = dragonPositions("_res4");
@@ -20,39 +10,6 @@ async function expected({ viewpoint }: Status, options: VisibilityOptions) {
   const { count, radius, evaluations } = await inNode(positions, (cloud) => cloud.visibleFrom(viewpoint, options));
   return { visible: count, radius, evaluations };
 }
-
-test("the radius follows the rules of the address, and then the slider", async () => {
-  for (const rule of ["search", "opposite"] as const) {
-    const page = await openReady(`${SAMPLE}&radius=${rule}`);
-    const now = await upToDate(page);
-    expect(now).toMatchObject(await expected(now, { radius: rule }));
-    await unfold(page, "Advanced");
-    await page.getByLabel("Exponent", { exact: true }).fill("1.5");
-    const byHand = await upToDate(page);
-    expect(byHand).toMatchObject(await answerInNode(positions, byHand, { exponent: 1.5 }));
-  }
-});
-
-test("while the camera moves the automatic radius replaces a slow rule", async () => {
-  const page = await openReady(`${SAMPLE}&radius=search`);
-  const before = await upToDate(page);
-  expect(before.evaluations).toBe(6);
-  const evaluations = await page.evaluateHandle(() => {
-    const seen: string[] = [];
-    const line = document.getElementById("status")!;
-    new MutationObserver(() => seen.push(line.dataset["evaluations"]!)).observe(line, {
-      attributeFilter: ["data-evaluations"],
-    });
-    return seen;
-  });
-  await drag(page, 120, 20);
-  const after = await upToDate(page);
-  expect(after.viewpoint).not.toEqual(before.viewpoint);
-  expect(after).toMatchObject(await expected(after, { radius: "search" }));
-  const seen = await evaluations.jsonValue();
-  expect(seen.at(-1)).toBe("6");
-  expect(seen).toContain("0");
-});
 
 test("a radius in the cloud's units is used as it is; if it is too small, a message says so and the automatic radius is used", async () => {
   const page = await openReady(`${SAMPLE}&view=0.1,0.2,0.3&radius=25`);

@@ -33,14 +33,14 @@ test("a copied address shows the same cloud, camera and settings again", async (
   expect(await written(again)).toBe(query);
 });
 
-test("the address also restores the rule of the radius, the frozen viewpoint and the up axis", async () => {
-  const page = await openReady("?sample=bunny&radius=search");
+test("the address also restores the length of the radius, the frozen viewpoint and the up axis", async () => {
+  const page = await openReady("?sample=bunny&radius=40");
   await unfold(page, "Look");
   await page.locator("#up-axis").getByRole("radio", { name: "Z", exact: true }).check();
   await page.getByRole("button", { name: "Freeze viewpoint" }).click();
   await drag(page, 120, 0);
   const query = await written(page);
-  for (const part of ["radius=search", "up=z", "freeze=", "view="]) {
+  for (const part of ["radius=40", "up=z", "freeze=", "view="]) {
     expect(query).toContain(part);
   }
   const again = await openReady(query);
@@ -90,7 +90,7 @@ test("a message names everything in the address that is not possible", async () 
 });
 
 test("a radius and an exponent exclude each other", async () => {
-  const page = await openReady("?sample=bunny&radius=search&exponent=2");
+  const page = await openReady("?sample=bunny&radius=40&exponent=2");
   expect((await upToDate(page)).exponent).toBeCloseTo(2, 12);
   expect(await page.locator("#message p").textContent()).toMatch(/exclude each other/);
 });

@@ -12,8 +12,6 @@ import type { Settings, Viewpoint } from "../settings/settings.ts";
 import {
   isSamePlace,
   isSameView,
-  isSearched,
-  isSlow,
   kindOf,
   mappedStagesOf,
   type Method,
@@ -27,8 +25,6 @@ import type { WorkerCloud } from "./worker-cloud.ts";
 
 export interface TimedView extends ViewAnswer {
   kind: Exclude<AnswerKind, "map">;
-  /** Whether the automatic radius replaces one that takes longer, because something moves. */
-  quick: boolean;
   /** The time of the question (performance.now), and how long the answer took, without the time of waiting. */
   asked: number;
   milliseconds: number;
@@ -194,7 +190,7 @@ export class Inquiry {
     return (mapped ?? stagesOf(this.#wanted!, isLarge)).map((question, number) => ({
       kind: kindOf(question),
       options: question,
-      rest: question.map ? 0 : mapped !== null || isSlow(question.method) ? REST : number > 0 ? PAUSE : 0,
+      rest: question.map ? 0 : mapped !== null || question.method.looks > 0 ? REST : number > 0 ? PAUSE : 0,
     }));
   }
 
@@ -218,8 +214,7 @@ export class Inquiry {
     if (!last || !isSamePlace(last.viewpoint, this.#wanted!.viewpoint, this.#size)) return 0;
     const reached = numberOf(last);
     if (reached >= 0) return reached + 1;
-    // A draft, or another radius, would show points that the picture no longer has.
-    if (isSearched(this.#wanted!.method)) return stages.length - 1;
+    // A draft would show points that the picture no longer has.
     const next = stages.findIndex(({ kind }) => kind !== "draft" && kind !== "map");
     const isKnown = this.#hull !== null && numberOf(this.#hull.question) === next;
     return isKnown ? Math.min(next + 1, stages.length - 1) : next;
@@ -240,7 +235,7 @@ export class Inquiry {
 
   /** The first map of a cloud takes longer, so it is made before the camera moves. */
   #prepareMaps(question: ViewQuestion): void {
-    if (this.#hasMaps || this.cloud.points.length < DRAFTS_FROM || mappedStagesOf(question) === null) return;
+    if (this.#hasMaps || this.cloud.points.length < DRAFTS_FROM) return;
     this.#hasMaps = true;
     // If it is refused, the first move says why.
     askMap(this.cloud, question).catch(() => undefined);
@@ -280,27 +275,21 @@ export class Inquiry {
     };
   }
 
-  /** Whether a question is for the second worker. */
-  #isAside(method: Method): boolean {
-    return isSearched(method) || (method.looks > 0 && this.cloud.points.length >= LOOKS_ASIDE_FROM);
-  }
-
   /** From now on, the cloud in the foreground can take the next question. */
   #noteFree(cloud: WorkerCloud): void {
     if (cloud === this.cloud) this.#freeSince = performance.now();
   }
 
   async #ask({ options: question, signal }: AskedStage<ViewQuestion>): Promise<TimedView> {
-    const cloud = this.#isAside(question.method) ? await this.#second.ready(signal) : this.cloud;
+    const isAside = question.method.looks > 0 && this.cloud.points.length >= LOOKS_ASIDE_FROM;
+    const cloud = isAside ? await this.#second.ready(signal) : this.cloud;
     const asked = performance.now();
     const answer = await askView(cloud, question, signal);
     const begun = cloud === this.cloud ? Math.max(asked, this.#freeSince) : asked;
     this.#noteFree(cloud);
     this.#answered = question;
-    const wanted = this.#wanted!.method;
-    const quick = isSearched(wanted) && !isSearched(question.method);
     const kind = kindOf(question) as TimedView["kind"];
-    const view = { ...answer, kind, quick, asked, milliseconds: performance.now() - begun };
+    const view = { ...answer, kind, asked, milliseconds: performance.now() - begun };
     if (view.kind === "operator") this.#hull = view;
     return this.told(view);
   }

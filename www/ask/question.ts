@@ -52,42 +52,22 @@ export function kindOf({ draft, map, method }: ViewQuestion): AnswerKind {
 /**
  * The questions that lead to a final answer, each slower and better than the one before:
  *
- *     draft ─► one hull ─► looks, or a radius that is searched
+ *     draft ─► one hull ─► looks
  *
  * The last of the three is missing if one hull is the final answer. `drafts`: whether the cloud is so large that a draft
  * is worth its time.
  */
 export function stagesOf(final: ViewQuestion, drafts: boolean): ViewQuestion[] {
-  const operator = isSlow(final.method) ? { ...final, method: quickMethod(final.method) } : final;
+  const { method } = final;
+  const hull: Method = { ...method, radius: { rule: "auto" }, looks: 0, thickness: undefined };
+  const operator = method.looks > 0 ? { ...final, method: hull } : final;
   const first = drafts ? [{ ...operator, draft: true }] : [];
   return [...first, operator, ...(operator === final ? [] : [final])];
 }
 
-/**
- * The questions while the camera moves: a map for each frame, and at rest the final answer. Null if a map cannot tell what
- * the final answer hides.
- */
-export function mappedStagesOf(final: ViewQuestion): ViewQuestion[] | null {
-  return isSearched(final.method) ? null : [{ ...final, map: true }, final];
-}
-
-/*
- * The rules that search take 6 and about 40 hulls, looks take three. While the viewpoint moves, the automatic radius
- * replaces them.
- */
-
-function quickMethod(method: Method): Method {
-  return isSlow(method) ? { ...method, radius: { rule: "auto" }, looks: 0, thickness: undefined } : method;
-}
-
-/** Whether the answer takes several hulls. */
-export function isSlow(method: Method): boolean {
-  return method.looks > 0 || isSearched(method);
-}
-
-/** Whether the choice of the radius takes many hulls. */
-export function isSearched({ radius }: Method): boolean {
-  return radius !== null && "rule" in radius && radius.rule !== "auto";
+/** The questions while the camera moves: a map for each frame, and at rest the final answer. */
+export function mappedStagesOf(final: ViewQuestion): ViewQuestion[] {
+  return [{ ...final, map: true }, final];
 }
 
 /**

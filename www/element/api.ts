@@ -47,8 +47,6 @@ export interface HiddenPointCloudEventMap {
   pick: CustomEvent<PickedPoint>;
 }
 
-export type RadiusRule = "auto" | "search" | "opposite";
-
 /** `<hidden-point-cloud>`. Each property up to `announce` is the attribute of its name; `null` without the attribute. */
 export interface HiddenPointCloudElement extends HTMLElement {
   /** Address of a LAS, LAZ, COPC, PLY, PCD, XYZ, TXT, CSV, OBJ, glTF or GLB file. */
@@ -62,7 +60,7 @@ export interface HiddenPointCloudElement extends HTMLElement {
   /** log₁₀ of radius ÷ farthest distance, 0 to 6. With it, `radius` is not used. */
   exponent: number | null;
   /** How the flipping sphere's radius is chosen, or how large it is in the file's units. */
-  radius: RadiusRule | number | null;
+  radius: "auto" | number | null;
   /** How many looks make the answer when the camera rests; 0 is one hull. Only without the three around it. */
   looks: 0 | 2 | 3 | null;
   /** `spherical`, `exponential` or `exponential:c` (c in spacings). */

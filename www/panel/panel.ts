@@ -9,7 +9,7 @@ import type { Viewer } from "../view/viewer.ts";
 import { bindColor, type ColorControl } from "./color.ts";
 import { PointSize } from "./point-size.ts";
 import { bindRadius } from "./radius.ts";
-import { bindSections } from "./sections.ts";
+import { unfoldUnusual } from "./sections.ts";
 import { bindSettings } from "./settings.ts";
 import { bindTheme } from "./theme.ts";
 import { bindVerbs } from "./verbs.ts";
@@ -41,7 +41,7 @@ export class Panel {
     bindTheme(store, (theme) => {
       viewer.setTheme(theme);
     });
-    bindSections(opened);
+    unfoldUnusual(opened);
 
     byId("reset").addEventListener("click", () => {
       moves.reset();

@@ -16,7 +16,7 @@ export function bindRadius(store: Store): (answer: ViewAnswer) => void {
   });
   const group = byId("radius-choice", HTMLFieldSetElement);
   store.follow(({ radius, inversion }) => {
-    automatic.setAttribute("aria-pressed", String("rule" in radius && radius.rule === "auto"));
+    automatic.setAttribute("aria-pressed", String("rule" in radius));
     group.disabled = inversion !== "spherical";
     if ("exponent" in radius) slider.value = radius.exponent;
   });

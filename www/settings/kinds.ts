@@ -25,26 +25,26 @@ export function oneNumberOf<T extends number>(...numbers: T[]): Kind<T> {
   return { parse: (text) => numbers.find((number) => String(number) === text), write: String, values };
 }
 
-export function between(least: number, most: number, what = "a number"): Kind<number> {
-  return {
-    parse: (text) => {
-      const value = parseNumber(text);
-      return value >= least && value <= most ? value : undefined;
-    },
-    write: String,
-    values: `${what} from ${least} to ${most}`,
+function numberThat(isUsable: (value: number) => boolean, values: string): Kind<number> {
+  const parse = (text: string) => {
+    const value = parseNumber(text);
+    return isUsable(value) ? value : undefined;
   };
+  return { parse, write: String, values };
+}
+
+export function between(least: number, most: number, what = "a number"): Kind<number> {
+  return numberThat((value) => value >= least && value <= most, `${what} from ${least} to ${most}`);
 }
 
 export function wholeBetween(least: number, most: number): Kind<number> {
-  return {
-    parse: (text) => {
-      const value = parseNumber(text);
-      return Number.isInteger(value) && value >= least && value <= most ? value : undefined;
-    },
-    write: String,
-    values: `an integer from ${least} to ${most}`,
-  };
+  const isUsable = (value: number) => Number.isInteger(value) && value >= least && value <= most;
+  return numberThat(isUsable, `an integer from ${least} to ${most}`);
+}
+
+/** A kind that is `null` unless it is given. */
+export function orNone<T>({ parse, values }: Kind<T>): Kind<T | null> {
+  return { parse, write: String, values };
 }
 
 /** A kind that takes one more word as a value. */
@@ -60,14 +60,7 @@ export function orWord<T, Word extends string | number>(
   };
 }
 
-export const POSITIVE: Kind<number> = {
-  parse: (text) => {
-    const value = parseNumber(text);
-    return value > 0 && value < Infinity ? value : undefined;
-  },
-  write: String,
-  values: "a positive number",
-};
+export const POSITIVE = numberThat((value) => value > 0 && value < Infinity, "a positive number");
 
 /** x, y, z in the file's own coordinates. */
 export const PLACE: Kind<Viewpoint> = {
@@ -82,18 +75,15 @@ export const PLACE: Kind<Viewpoint> = {
 /** Any text. Only after the cloud is loaded is it known whether the cloud has something of that name. */
 export const NAME: Kind<string> = { parse: (text) => text, write: String, values: "a name" };
 
-const RULE = oneOf<Extract<Radius, { rule: string }>["rule"]>("auto", "search", "opposite");
-
-/** A rule or a length. A radius that is given by its exponent is written by another parameter. */
+/** Automatic, or a length. A radius that is given by its exponent is written by another parameter. */
 export const RADIUS: Kind<Radius> = {
   parse: (text) => {
-    const rule = RULE.parse(text);
-    if (rule) return { rule };
+    if (text === "auto") return { rule: "auto" };
     const length = POSITIVE.parse(text);
     return length === undefined ? undefined : { length };
   },
   write: (radius) => ("rule" in radius ? radius.rule : "length" in radius ? String(radius.length) : ""),
-  values: "`auto`, `search`, `opposite` or a positive number",
+  values: "`auto` or a positive number",
 };
 
 /** A word. Its parameter may follow after a colon. */

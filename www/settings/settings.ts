@@ -14,7 +14,7 @@ export const USUAL_SETTINGS = Object.fromEntries(
 
 /** Whether looks are possible with these settings. Each look has its own flip, so they exclude any other choice of it. */
 export function canLook({ radius, inversion }: Pick<Settings, "radius" | "inversion">): boolean {
-  return "rule" in radius && radius.rule === "auto" && inversion === "spherical";
+  return "rule" in radius && inversion === "spherical";
 }
 
 /** A radius or an inversion that is given asks for the operator of the paper, even if it is the usual one. */

@@ -5,10 +5,10 @@ export type Viewpoint = [number, number, number];
 export type HiddenMode = "off" | "dimmed" | "shown";
 
 /**
- * The radius R of the flipping sphere: a rule that chooses it, its length in the file's units, or its exponent
+ * The radius R of the flipping sphere: chosen automatically, or its length in the file's units, or its exponent
  * log₁₀(R ÷ farthest distance).
  */
-export type Radius = { rule: "auto" | "search" | "opposite" } | { exponent: number } | { length: number };
+export type Radius = { rule: "auto" } | { exponent: number } | { length: number };
 
 /** How many looks make the answer when the camera rests (docs/LOOKS.md). 0: the operator of the paper. */
 export type Looks = 0 | 2 | 3;

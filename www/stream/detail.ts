@@ -60,7 +60,7 @@ export async function detailOf(
     const visibility = await worker.points.visibleFrom(viewpoint, merge);
     const milliseconds = performance.now() - said.asked;
     const whole = { total, sentence };
-    const answer = { ...said, whole, visibility, note: null, quick: false, milliseconds };
+    const answer = { ...said, whole, visibility, note: null, milliseconds };
     return { cloud, positions, inquiry, answer };
   } catch (error) {
     inquiry.dispose();

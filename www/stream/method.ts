@@ -8,5 +8,5 @@ import type { StreamMethod } from "./protocol.ts";
 export function streamMethodOf({ radius, inversion }: Settings): StreamMethod | null {
   if (inversion !== "spherical") return inversion;
   if ("length" in radius) return { length: radius.length };
-  return "rule" in radius && radius.rule === "auto" ? "automatic" : null;
+  return "rule" in radius ? "automatic" : null;
 }

@@ -27,4 +27,4 @@ export function sentenceOfOverview(count: number, shown: number, total: number):
 
 /** Why only the overview answers. */
 export const ONLY_OVERVIEW =
-  "This answer is about the coarser levels alone. The other levels are read only without an exponent, and without a searched radius.";
+  "This answer is about the coarser levels alone. The other levels are read only without an exponent.";

@@ -32,7 +32,6 @@ export class Export implements Tool {
     this.#actions = actions;
     this.#bind("export-ply", "ply", () => this.#ply());
     this.#bind("export-las", "las", () => this.#las());
-    this.#bind("export-json", "json", () => this.#json());
     this.#bind("export-csv", "csv", () => this.#csv());
     this.#bind("export-png", "png", async () => [await pictureWithMarks(bench.viewer.stage, bench.marks.svg)]);
     byId("copy-link").addEventListener("click", () => void this.#copyLink());
@@ -87,25 +86,6 @@ export class Export implements Tool {
     const { cloud, positions } = this.#bench.viewer.scene;
     const { colors, fields, facts } = cloud;
     return lasParts({ positions, colors, fields, indices: this.#indices }, facts.las);
-  }
-
-  *#json(): Iterable<BlobPart> {
-    const { cloud, answer } = this.#bench.viewer.scene;
-    const { question, visibility } = answer;
-    const head = {
-      cloud: this.#actions.name(),
-      points: this.#what,
-      total: cloud.count,
-      viewpoint: question.viewpoint,
-      radius: visibility.radius,
-      exponent: visibility.exponent,
-      inversion: visibility.inversion,
-      looks: question.method.looks,
-    };
-    yield JSON.stringify(head).slice(0, -1);
-    yield ',"indices":[';
-    yield* joined(this.#indices, ",", (index) => String(indexInFile(cloud, index)));
-    yield "]}\n";
   }
 
   *#csv(): Iterable<BlobPart> {

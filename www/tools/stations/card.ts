@@ -4,11 +4,9 @@ import type { Viewshed } from "./viewshed.ts";
 
 export interface StationActions {
   here: () => void;
-  suggest: () => void;
   stop: () => void;
   remove: (number: number) => void;
   clear: () => void;
-  save: () => void;
 }
 
 const number = new Intl.NumberFormat("en-US");
@@ -32,8 +30,6 @@ export class StationCard {
   readonly #unseen = make("p", { class: "note", id: "stations-unseen" });
   readonly #bar = make("progress", { max: "1", "aria-label": "Finding what the stations see" });
   readonly #work: HTMLElement;
-  readonly #suggest: HTMLButtonElement;
-  readonly #results: HTMLElement;
   readonly #clear: HTMLButtonElement;
   readonly #actions: StationActions;
 
@@ -41,20 +37,14 @@ export class StationCard {
     this.#actions = actions;
     this.#work = make("div", { class: "work", hidden: true }, this.#bar, button("Stop", actions.stop));
     this.#clear = button("Remove all", actions.clear, { hidden: true });
-    this.#suggest = button("Suggest one", actions.suggest, {
-      title:
-        "Tries places on a grid over the ground. Takes the place that sees most of the points that no station sees.",
-    });
-    this.#results = make("div", { class: "files", hidden: true }, button("Points, PLY", actions.save));
     card.replaceChildren(
       this.#said,
       this.#table,
       this.#work,
       this.#meanings,
       this.#unseen,
-      this.#results,
       this.#height.row,
-      make("div", { class: "files" }, button("At the camera", actions.here), this.#suggest, this.#clear),
+      make("div", { class: "files" }, button("At the camera", actions.here), this.#clear),
     );
   }
 
@@ -76,13 +66,12 @@ export class StationCard {
   progress(fraction: number | null): void {
     this.#work.hidden = fraction === null;
     this.#bar.value = fraction ?? 0;
-    this.#suggest.disabled = fraction !== null;
   }
 
   /** `found`: `null` as long as it is not known what the stations see. */
   show(stations: readonly Station[], found: Viewshed | null): void {
     this.#table.hidden = this.#clear.hidden = stations.length === 0;
-    this.#results.hidden = this.#unseen.hidden = this.#meanings.hidden = found === null;
+    this.#unseen.hidden = this.#meanings.hidden = found === null;
     this.#body.replaceChildren(
       ...stations.map(({ name }, i) => {
         const row = found?.rows[i];

@@ -1,13 +1,10 @@
 import { OWN_COLORS, type Viewpoint } from "../../settings/settings.ts";
 import type { Store } from "../../settings/store.ts";
 import { STATION_COLORS } from "../../settings/table.ts";
-import { contentOf, save, stemOf } from "../files.ts";
 import { measuresOf } from "../figures.ts";
 import type { Spot } from "../find.ts";
 import type { Mark } from "../marks.ts";
-import { plyParts } from "../../../src/ts/formats/write/ply.js";
 import type { Bench, Tool } from "../tool.ts";
-import { candidatesOver } from "./candidates.ts";
 import { StationCard } from "./card.ts";
 import { countColors } from "./colors.ts";
 import { MOST_STATIONS, type Station } from "./station.ts";
@@ -29,7 +26,6 @@ export class Stations implements Tool {
   #finder: ViewshedFinder | null = null;
   #found: Viewshed | null = null;
   #running: AbortController | null = null;
-  #suggested = 0;
 
   constructor(bench: Bench, store: Store, card: HTMLElement) {
     this.#bench = bench;
@@ -40,7 +36,6 @@ export class Stations implements Tool {
           this.add([{ name: this.#nextName(), at: store.current.freeze ?? bench.viewer.viewpoint }]);
         }
       },
-      suggest: () => void this.#suggest(),
       stop: () => {
         this.#running?.abort();
       },
@@ -52,7 +47,6 @@ export class Stations implements Tool {
         this.#stations = [];
         this.#changed();
       },
-      save: () => void this.#save(),
     });
     store.follow((now, before) => {
       const { viewer } = bench;
@@ -148,25 +142,6 @@ export class Stations implements Tool {
     });
   }
 
-  async #suggest(): Promise<void> {
-    const { viewer, upward } = this.#bench;
-    if (!viewer.cloud) return;
-    const { scene } = viewer;
-    const best = await this.#run(async (under) => {
-      const candidates = candidatesOver(scene, upward(), this.#card.height);
-      this.#card.say(`Trying ${candidates.length} places.`);
-      const counts = this.#found?.counts;
-      return this.#finderNow.suggest(candidates, (i) => !counts?.[i], this.#store.current, under);
-    });
-    if (best === undefined) return;
-    if (best === null) {
-      this.#card.say("None of the tried places sees a point that no station sees.");
-      return;
-    }
-    this.#suggested++;
-    this.add([{ name: `Suggested ${this.#suggested}`, at: best.at }]);
-  }
-
   get #finderNow(): ViewshedFinder {
     return (this.#finder ??= new ViewshedFinder(this.#bench.viewer.scene.inquiry));
   }
@@ -210,23 +185,6 @@ export class Stations implements Tool {
       this.#store.change({ color: OWN_COLORS });
       viewer.setAttribute(STATION_COLORS, null);
     }
-  }
-
-  /** Saves the points with the number of stations that see each of them. */
-  async #save(): Promise<void> {
-    const { cloud, positions } = this.#bench.viewer.scene;
-    const { counts } = this.#found!;
-    const { colors, fields } = contentOf(cloud);
-    const indices = Uint32Array.from(counts.keys());
-    const comments = this.#stations.map(
-      ({ name, at }) => `Station ${name.replace(/[^\x20-\x7e]/g, "?")} ${at.join(" ")}`,
-    );
-    const file = `${stemOf(this.#bench.name())}-seen-by-stations.ply`;
-    await save(
-      file,
-      plyParts({ positions, colors, fields: [...fields, { name: "stations", values: counts }], indices }, comments),
-    );
-    this.#card.say(`Saved as ${file}.`);
   }
 }
 

@@ -46,22 +46,6 @@ export class ViewshedFinder {
     return summed(this.#inquiry.cloud.points.length, masks);
   }
 
-  /**
-   * Chooses the candidate that sees most of the points that no station sees. `null`: none sees any of them.
-   */
-  async suggest(
-    candidates: readonly Viewpoint[],
-    unseen: (index: number) => boolean,
-    settings: Settings,
-    under: Under,
-  ): Promise<{ at: Viewpoint; gain: number } | null> {
-    const { points } = this.#inquiry.cloud;
-    const weights = Uint8Array.from({ length: points.length }, (_, i) => Number(unseen(i)));
-    const options = this.#inquiry.cloud.options(this.#inquiry.methodOf(settings));
-    const { chosen, gains } = await points.placeViewpoints(candidates, { ...options, weights, count: 1, ...under });
-    return chosen.length === 0 ? null : { at: candidates[chosen[0]!]!, gain: gains[0]! };
-  }
-
   async #ask(at: Viewpoint, method: Method, signal: AbortSignal): Promise<Uint8Array> {
     const { cloud } = this.#inquiry;
     return Uint8Array.from(await cloud.points.coverage([at], { ...cloud.options(method), signal }));
