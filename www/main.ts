@@ -34,6 +34,9 @@ import("./page/session.ts")
   .catch((error: unknown) => {
     const status = byId("status");
     status.dataset["state"] = "error";
-    status.textContent = "A part of this page could not be loaded; reload the page to try again.";
+    // While the drawer is closed, only screen readers have the status.
+    for (const element of [status, byId("caption")]) {
+      element.textContent = "A part of this page could not be loaded; reload the page to try again.";
+    }
     throw error;
   });

@@ -169,7 +169,7 @@ test("the sentence, the caption and the method have a singular, a plural and rou
   expect(captionOf(answer(1), 1, false)).toBe("1 point. 1 can be seen from here.");
   expect(captionOf(answer(38_083), 100_250, false)).toBe("100,000 points. 38,000 can be seen from here.");
   expect(captionOf({ ...answer(57_000), kind: "draft" }, 100_250, true)).toBe(
-    "100,000 points. Which can be seen from the frozen viewpoint?",
+    "100,000 points. Which can be seen from the eye?",
   );
   expect(methodOf(answer(1), 1)).toBe("100\u00a0% of the points, found by 3 looks in 3.0\u00a0ms.");
   expect(methodOf(answer(1), 900)).toMatch(/^<\s1\s% of the points, /);

@@ -138,7 +138,7 @@ test("freeze and walk around: an eye stands where the viewpoint was, hidden poin
   const frozen = await upToDate(page);
   expect(frozen.viewpoint).toEqual(viewpoint);
   expect((await addressWritten(page)).get("hidden")).toBe("dimmed");
-  await expect.poll(() => caption(page)).toMatch(/^1,839 points\. [\d,]+ can be seen from the frozen viewpoint\.$/);
+  await expect.poll(() => caption(page)).toMatch(/^1,839 points\. [\d,]+ can be seen from the eye\.$/);
   await drag(page, 150, 40);
   await page.getByRole("button", { name: "Move the eye here" }).click();
   await expect.poll(async () => (await upToDate(page)).viewpoint).not.toEqual(viewpoint);

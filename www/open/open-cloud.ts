@@ -90,9 +90,7 @@ export async function openCloud(
   const { view, places, notes: farNotes } = inReachOnly(cloud, wanted, wished, place.asked);
   const own: Partial<Settings> = {
     ...usual,
-    freeze: null,
-    thickness: "auto",
-    ...radiusFor(place.settings()),
+    ...leaving(place.settings()),
     ...wished,
     ...places,
   };
@@ -172,7 +170,12 @@ function sentence(step: string, name: string, fraction: number | null): string {
   return `${step} ${name}${fraction === null ? "" : `: ${Math.floor(100 * fraction)}\u00a0%`}.`;
 }
 
-/** A radius in the units of one cloud has no meaning for the next cloud. Then the automatic radius is used. */
-function radiusFor({ radius }: Settings): Partial<Settings> {
-  return "length" in radius ? { radius: { rule: "auto" } } : {};
+/** The settings without those of the cloud before: lengths in its units, a frozen eye, and the ghosts around that eye. */
+function leaving({ radius, freeze, hidden }: Settings): Partial<Settings> {
+  return {
+    freeze: null,
+    thickness: "auto",
+    ...("length" in radius && { radius: { rule: "auto" } }),
+    ...(freeze && hidden === "dimmed" && { hidden: "off" }),
+  };
 }

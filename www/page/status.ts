@@ -20,6 +20,8 @@ export class Status {
   readonly #method = byId("method");
   #sentence = "";
   #captioned = "";
+  /** The caption of the last answer. */
+  #answered = "";
   #timer: ReturnType<typeof setTimeout> | undefined;
   #announcing: ReturnType<typeof setTimeout> | undefined;
   #refilters = 0;
@@ -44,13 +46,16 @@ export class Status {
     this.#interrupt();
   }
 
-  /** Shows an error. The attributes of the cloud on screen stay. The answer to the next question is "ready" again. */
+  /**
+   * Shows an error. The attributes of the cloud on screen stay. The answer to the next question is "ready" again. The
+   * message says it over the picture: a long caption would cover more of the picture, which would ask for another view.
+   */
   error(sentence: string): void {
     this.#since = performance.now();
     this.#element.dataset["state"] = "error";
     this.busy(false);
     this.#interrupt();
-    this.#say(sentence);
+    this.#say(sentence, this.#answered);
   }
 
   /** Whether an answer for the present settings and place is still to come. */
@@ -102,7 +107,8 @@ export class Status {
       this.#method.textContent = "";
       return;
     }
-    this.#say(sentenceOf(this.#last, total, frozen), captionOf(this.#last, total, frozen));
+    this.#answered = captionOf(this.#last, total, frozen);
+    this.#say(sentenceOf(this.#last, total, frozen), this.#answered);
     this.#method.textContent = methodOf(this.#last, total);
   }
 

@@ -59,6 +59,8 @@ export class Address {
   begin(name: CloudName | null, usual: Usual): void {
     this.#cloud = name && { name, usual };
     this.#before = null;
+    // No address can open a file of this device.
+    if (!name) replace(new URL(location.pathname, location.href));
     this.touch();
   }
 

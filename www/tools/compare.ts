@@ -62,6 +62,11 @@ export class Compare {
       const { left, width } = divider.parentElement!.getBoundingClientRect();
       moveTo((event.clientX - left) / width);
     });
+    // The wheel is for the picture, also over the line.
+    divider.addEventListener("wheel", (event) => {
+      event.preventDefault();
+      byId("view").dispatchEvent(new WheelEvent(event.type, event));
+    });
     divider.addEventListener("keydown", (event) => {
       const { compare } = this.#store.current;
       const found = pressed(event, ["divide"]);

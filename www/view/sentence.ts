@@ -6,27 +6,23 @@ const number = new Intl.NumberFormat("en-US");
 export function sentenceOf({ visibility, kind }: TimedView, total: number, frozen: boolean): string {
   const most = kind === "draft" ? "At most " : "";
   const points = total === 1 ? "point" : "points";
-  return `${most}${number.format(visibility.count)} of ${number.format(total)} ${points} can be seen from ${whereFrom(frozen)}.`;
+  const where = frozen ? "the frozen viewpoint" : "here";
+  return `${most}${number.format(visibility.count)} of ${number.format(total)} ${points} can be seen from ${where}.`;
 }
 
 /** The same in round numbers, to be read at a glance. A draft, whose number would jump, asks. */
 export function captionOf({ visibility, kind }: TimedView, total: number, frozen: boolean): string {
   const points = total === 1 ? "point" : "points";
-  const seen = `can be seen from ${whereFrom(frozen)}`;
+  const seen = `can be seen from ${frozen ? "the eye" : "here"}`;
   const second = kind === "draft" ? `Which ${seen}?` : `${rounded(visibility.count)} ${seen}.`;
   return `${rounded(total)} ${points}. ${second}`;
 }
 
 /** How the answer was found. */
-export function methodOf({ visibility, question, kind, quick, milliseconds }: TimedView, total: number): string {
+export function methodOf({ visibility, question, kind, milliseconds }: TimedView, total: number): string {
   const time = milliseconds < 10 ? milliseconds.toFixed(1) : number.format(Math.round(milliseconds));
-  const standIn = quick ? ", with the automatic radius while moving" : "";
   const by = kind === "looks" ? `by ${question.method.looks} looks ` : "";
-  return `${percent(visibility.count, total)} of the points, found ${by}in ${time}\u00a0ms${standIn}.`;
-}
-
-function whereFrom(frozen: boolean): string {
-  return frozen ? "the frozen viewpoint" : "here";
+  return `${percent(visibility.count, total)} of the points, found ${by}in ${time}\u00a0ms.`;
 }
 
 /** Two digits of a large number. A small one is told exactly. */

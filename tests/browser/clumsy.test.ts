@@ -1,0 +1,64 @@
+// Faults that an hour of clumsy and hostile use has found.
+import type { Page } from "playwright-core";
+import { expect, test } from "vitest";
+import { asciiPly, ball } from "./clouds.js";
+import { choose } from "./files.js";
+import { addressWritten, openPage, openReady, provoke, reached, status, upToDate } from "./support.js";
+
+/** The page as a stranger finds it. */
+const withoutTools = (page: Page) =>
+  page.addInitScript(() => {
+    localStorage.removeItem("hidden-point-removal: tools");
+  });
+
+test("a long refusal leaves the picture where it is, and the caption is about the cloud", async () => {
+  const page = await openReady("?sample=bunny", {}, withoutTools);
+  const before = await status(page);
+  const caption = page.locator("#caption");
+  const said = `1,839 points. ${before.visible} can be seen from here.`;
+  await expect.poll(() => caption.textContent()).toBe(said);
+  await choose(page, "broken.ply", new TextEncoder().encode(`ply\n${"no line of a header ".repeat(20)}\nend_header\n`));
+  await reached(page, "error");
+  // Longer than an answer to another view would take.
+  await page.waitForTimeout(1000);
+  expect(await status(page)).toEqual({ ...before, state: "error" });
+  expect(await caption.textContent()).toBe(said);
+});
+
+test("a file from the device clears the address, and the ghosts of a frozen eye", async () => {
+  const page = await openReady("?sample=bunny&exponent=2&label=5,ear", {}, withoutTools);
+  await page.getByRole("button", { name: "Freeze and walk around" }).click();
+  await upToDate(page);
+  expect((await addressWritten(page)).get("hidden")).toBe("dimmed");
+  await choose(page, "own.ply", asciiPly(ball(600)));
+  await page.locator('#status[data-total="600"]').waitFor({ state: "attached" });
+  await upToDate(page);
+  expect(new URL(page.url()).search).toBe("");
+  expect(await page.getByRole("radio", { name: "Hide", includeHidden: true }).isChecked()).toBe(true);
+});
+
+test("a page whose script cannot be loaded says so over the empty picture", async () => {
+  provoke(/Failed to load resource|Failed to fetch dynamically imported module/);
+  const page = await openPage("", {}, async (opened) => {
+    await withoutTools(opened);
+    await opened.route("**/assets/session-*.js", (route) => route.abort());
+  });
+  await expect.poll(() => page.locator("#caption").textContent()).toMatch(/could not be loaded; reload the page/);
+});
+
+test("the wheel zooms the picture also over the line that divides it", async () => {
+  const page = await openReady("?sample=bunny&compare=0.5");
+  const { viewpoint } = await status(page);
+  await page.locator("#divider").hover();
+  await page.mouse.wheel(0, -300);
+  await expect.poll(async () => (await upToDate(page)).viewpoint).not.toEqual(viewpoint);
+});
+
+test("with the system's few colors, the words of a pressed button differ from its ground", async () => {
+  const page = await openReady("?sample=bunny&compare=0.5", { forcedColors: "active" }, withoutTools);
+  const [color, ground] = await page.locator("#compare").evaluate((button) => {
+    const style = getComputedStyle(button);
+    return [style.color, style.backgroundColor];
+  });
+  expect(color).not.toBe(ground);
+});
