@@ -1,4 +1,4 @@
-// three-types.test.ts compiles this file like a project that uses the adapters.
+// types.test.ts compiles this file like a project that uses the adapters.
 import { Deck } from "@deck.gl/core";
 import { VisiblePointCloudLayer } from "hidden-point-removal/deck";
 import { HiddenPointNodesFilter } from "hidden-point-removal/nodes";
