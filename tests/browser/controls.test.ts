@@ -18,15 +18,19 @@ import {
 
 const SAMPLE = "?sample=dragon_res3&looks=0";
 
-test("changing the field of view by the slider asks nothing", async () => {
+test("the field of view, the size of points and keys in the panel's fields ask nothing, and move nothing", async () => {
   const page = await openReady(SAMPLE);
   const before = await settled(page);
-  const pictures = [await picture(page)];
-
   await unfold(page, "Look");
-  await page.getByLabel("Field of view", { exact: true }).fill("20");
-  pictures.push(await picture(page));
-  expect(await differentPixels(page, pictures[0]!, pictures[1]!)).toBeGreaterThan(500);
+  for (const [label, value, pixels] of [
+    ["Field of view", "20", 500],
+    ["Point size", "4", 2000],
+  ] as const) {
+    const last = await picture(page);
+    await page.getByLabel(label, { exact: true }).fill(value);
+    expect(await differentPixels(page, last, await picture(page)), label).toBeGreaterThan(pixels);
+  }
+  await page.keyboard.press("ArrowRight");
   expect(await settled(page)).toEqual(before);
 });
 
@@ -58,41 +62,29 @@ test("zooming, panning and keys move the viewpoint", async () => {
   expect(await page.getByLabel("Field of view", { exact: true }).inputValue()).toBe("45");
 });
 
-test("keys in the panel's fields do not move the camera", async () => {
-  const page = await openReady(SAMPLE);
+test("hidden points are off, dimmed or shown, and the change asks nothing", async () => {
+  const page = await openReady("?sample=bunny");
   const before = await settled(page);
-  await unfold(page, "Look");
-  await page.getByLabel("Point size").focus();
-  await page.keyboard.press("ArrowRight");
+  const off = await picture(page);
+  await page.getByRole("radio", { name: "Ghost" }).check();
+  const dimmed = await picture(page);
+  await page.getByRole("radio", { name: "Highlight" }).check();
+  const shown = await picture(page);
+  for (const [a, b] of [
+    [off, dimmed],
+    [dimmed, shown],
+    [off, shown],
+  ] as const) {
+    expect(await differentPixels(page, a, b)).toBeGreaterThan(2000);
+  }
+  await page.locator("#view").focus();
+  await page.keyboard.press("h");
+  await expect.poll(() => page.getByRole("radio", { name: "Hide" }).isChecked()).toBe(true);
+  // Removes the ring of the keyboard focus.
+  await page.locator("#view").blur();
+  expect(await differentPixels(page, off, await picture(page))).toBe(0);
   expect(await settled(page)).toEqual(before);
 });
-
-test.for(["dragon_res3", "bunny"])(
-  "hidden points of %s are off, dimmed or shown, and the change asks nothing",
-  async (sample) => {
-    const page = await openReady(`?sample=${sample}`);
-    const before = await settled(page);
-    const off = await picture(page);
-    await page.getByRole("radio", { name: "Ghost" }).check();
-    const dimmed = await picture(page);
-    await page.getByRole("radio", { name: "Highlight" }).check();
-    const shown = await picture(page);
-    for (const [a, b] of [
-      [off, dimmed],
-      [dimmed, shown],
-      [off, shown],
-    ] as const) {
-      expect(await differentPixels(page, a, b)).toBeGreaterThan(2000);
-    }
-    await page.locator("#view").focus();
-    await page.keyboard.press("h");
-    await expect.poll(() => page.getByRole("radio", { name: "Hide" }).isChecked()).toBe(true);
-    // Removes the ring of the keyboard focus.
-    await page.locator("#view").blur();
-    expect(await differentPixels(page, off, await picture(page))).toBe(0);
-    expect(await settled(page)).toEqual(before);
-  },
-);
 
 test("a frozen viewpoint stays while the camera flies around, until it is released", async () => {
   const page = await openReady(SAMPLE);
@@ -138,16 +130,6 @@ test("the exponent is automatic, then the slider's, then automatic again", async
   await button.click();
   const again = await refiltered(page, manual);
   expect(again).toMatchObject({ exponent: automatic.exponent, visible: automatic.visible });
-});
-
-test("a larger point size covers more of the picture", async () => {
-  const page = await openReady(SAMPLE);
-  const before = await settled(page);
-  const small = await picture(page);
-  await unfold(page, "Look");
-  await page.getByLabel("Point size").fill("4");
-  expect(await differentPixels(page, small, await picture(page))).toBeGreaterThan(2000);
-  expect(await settled(page)).toEqual(before);
 });
 
 test("choosing the original up side gives the first view again", async () => {

@@ -118,17 +118,6 @@ test("a message fits a phone", async () => {
   expect(await flaws(page)).toEqual([]);
 });
 
-test("keyboard focus is visible", async () => {
-  const page = await openReady("?sample=dragon_res4");
-  await page.keyboard.press("Tab");
-  expect(await page.evaluate(() => document.activeElement?.id)).toBe("view");
-  const outline = () => page.evaluate(() => getComputedStyle(document.activeElement!).outlineStyle);
-  expect(await outline()).toBe("solid");
-  await page.getByRole("button", { name: "Reset view" }).focus();
-  await page.keyboard.press("Tab");
-  expect(await outline()).toBe("solid");
-});
-
 test.for([
   { name: "a phone held sideways", options: { ...PHONE, viewport: { width: 844, height: 390 } }, text: 16 },
   { name: "text of twice the size", options: { viewport: { width: 1280, height: 800 } }, text: 32 },

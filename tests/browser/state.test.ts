@@ -71,7 +71,7 @@ test("at the first view and with the usual settings the address is empty", async
 
 test("a message names everything in the address that is not possible", async () => {
   const page = await openReady(
-    "?sample=bunny&radius=-1&inversion=power&freeze=1&hidden=maybe&size=0&fov=400&up=x&target=1,2",
+    "?sample=bunny&radius=-1&inversion=power&freeze=1&hidden=maybe&size=0&fov=400&up=x&target=1,2&compare=2&theme=sepia",
   );
   const message = (await page.locator("#message p").textContent())!;
   const named = [
@@ -83,10 +83,13 @@ test("a message names everything in the address that is not possible", async () 
     /field of view/,
     /side that is up/,
     /target/,
+    /place of the divider/,
+    /theme in the address is not system, dark or light/,
   ];
   for (const name of named) expect(message).toMatch(name);
   const usual = await openReady("?sample=bunny");
   expect(same(await upToDate(page))).toEqual(same(await status(usual)));
+  expect(await page.locator("#divider").isVisible()).toBe(false);
 });
 
 test("a radius and an exponent exclude each other", async () => {

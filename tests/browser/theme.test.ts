@@ -2,7 +2,7 @@ import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
 import { type ThemeName, THEMES } from "../../www/view/theme.ts";
 import { at, clickPoint, everything, openBall, tool } from "./ball.js";
-import { EVERY_PIXEL, openPage, openReady, picture, reached, settled, status, unfold } from "./support.js";
+import { EVERY_PIXEL, openPage, openReady, picture, settled, status, unfold } from "./support.js";
 
 /** Points that are surely visible: they bulge most towards the viewer. */
 const NEAREST = everything.toSorted((i, j) => at(j)[2] - at(i)[2]).slice(0, 2);
@@ -75,12 +75,6 @@ test("the address's theme is set before anything is drawn, even before the scrip
   await expect
     .poll(() => page.evaluate(() => getComputedStyle(document.body).backgroundColor))
     .toBe(`rgb(${r}, ${g}, ${b})`);
-});
-
-test("a message names a theme that does not exist", async () => {
-  const page = await openPage("?sample=bunny&theme=sepia");
-  await reached(page, "ready");
-  expect(await page.locator("#message").textContent()).toMatch(/theme in the address is not system, dark or light/);
 });
 
 test("points, hidden points and the saved picture's marks have the theme's colors", async () => {

@@ -85,14 +85,6 @@ test("the bare page opens divided, and stays divided", async () => {
   await expect.poll(() => asked.url()).toContain("compare=0.3");
 });
 
-test("a message names an invalid divider", async () => {
-  const page = await openReady("?sample=dragon_res4&compare=2");
-  expect(await page.locator("#message p").textContent()).toBe(
-    "The place of the divider in the address is not a number from 0 to 1, so the picture is not divided.",
-  );
-  expect(await page.locator("#divider").isVisible()).toBe(false);
-});
-
 test("the question mark opens the sheet with all keys; it keeps the focus and gives it back", async () => {
   const page = await openReady("?sample=dragon_res4");
   await page.locator("#view").focus();
