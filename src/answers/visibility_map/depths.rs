@@ -104,18 +104,6 @@ fn bulge(cell: f64, squared: f64) -> f64 {
     0.125 * cell * cell * smaller(2.0, sum * grown)
 }
 
-/// Passes the indices of the four corners of each cell of a window.
-#[inline(always)]
-pub(super) fn each_cell(window: &Window, pass: &mut impl FnMut([usize; 4])) {
-    let across = window.columns + 1;
-    for row in 0..window.rows {
-        for column in 0..window.columns {
-            let low = window.first + row * across + column;
-            pass([low, low + 1, low + across, low + across + 1]);
-        }
-    }
-}
-
 /// For all corners of a window, lowers the reaches by what the cells around lose.
 fn lower(window: &Window, cell: f64, lengths: &[f64], least: &mut [f64]) {
     let across = window.columns + 1;
