@@ -1,5 +1,5 @@
 import { PerspectiveCamera, OrthographicCamera, Vector3 } from "three";
-import { expect, it, vi } from "vitest";
+import { afterAll, expect, it, vi } from "vitest";
 
 import type { Camera } from "hidden-point-removal";
 
@@ -207,6 +207,9 @@ function fisheye(...lens: Parameters<typeof radial>) {
   };
 }
 
+const remote = await WorkerPointCloud.create(positions, { workers: 2 });
+afterAll(() => remote.dispose());
+
 it.each(Object.entries(LENSES))("%s is COLMAP's model", async (model, [distortion, bent]) => {
   const cloud = new PointCloud(positions);
   const three = threeCamera();
@@ -214,15 +217,13 @@ it.each(Object.entries(LENSES))("%s is COLMAP's model", async (model, [distortio
   const camera = { ...pose, model, distortion, fx: 600, fy: 500, cx: 310, cy: 250, width: 640, height: 480 } as Camera;
   const seen = cloud.visibleFromCamera(camera);
   expect(seen.count).toBeGreaterThan(300);
-  seen.indices.forEach((index, i) => {
+  const expected = Array.from(seen.indices).flatMap((index) => {
     const { x, y, z } = new Vector3().fromArray(positions, 3 * index).applyMatrix4(three.matrixWorldInverse);
     const [u, v] = bent(-x / z, y / z);
-    expect(seen.pixels[2 * i]).toBeCloseTo(600 * u + 310, 2);
-    expect(seen.pixels[2 * i + 1]).toBeCloseTo(500 * v + 250, 2);
+    return [600 * u + 310, 500 * v + 250];
   });
-  const remote = await WorkerPointCloud.create(positions, { workers: 2 });
+  expect(Math.max(...expected.map((place, i) => Math.abs(seen.pixels[i]! - place)))).toBeLessThan(0.005);
   expect((await remote.visibleFromCamera(camera)).pixels).toEqual(seen.pixels);
-  await remote.dispose();
   // A map towards the camera covers its whole image: what it hides there is hidden.
   const map = cloud.visibilityMap(place, { towards: camera });
   const hidden = map.hides(positions);
@@ -259,15 +260,9 @@ it("cameras stand wherever several viewpoints stand", async () => {
     expect(cloud.placeViewpoints(seats, { ...options, count: 1 }).gains).toEqual([
       Math.max(...views.map(({ count }) => count)),
     ]);
-    for (const workers of [1, 3]) {
-      const remote = await WorkerPointCloud.create(positions, { workers });
-      expect(await remote.coverage(seats, options)).toEqual(counts);
-      expect((await remote.visibleFromAny(seats, options)).indices).toEqual(
-        cloud.visibleFromAny(seats, options).indices,
-      );
-      expect(await remote.seenBy(ring, options)).toEqual(cloud.seenBy(ring, options));
-      await remote.dispose();
-    }
+    expect(await remote.coverage(seats, options)).toEqual(counts);
+    expect((await remote.visibleFromAny(seats, options)).indices).toEqual(cloud.visibleFromAny(seats, options).indices);
+    expect(await remote.seenBy(ring, options)).toEqual(cloud.seenBy(ring, options));
   }
   const bad = [...ring, { ...ring[0]!, fx: "5" }] as never;
   for (const ask of [() => cloud.coverage(bad), () => cloud.visibleFromAny(bad), () => cloud.placeViewpoints(bad)]) {
@@ -302,10 +297,8 @@ it("seenBy lists the cameras of each point, with their pixels", async () => {
     expect(() => cloud.seenBy(bad as never)).toThrow(expect.objectContaining({ code: "viewpoint" }));
   }
   expect(() => cloud.seenBy(ring, { draft: true })).toThrow(expect.objectContaining({ code: "option" }));
-  const remote = await WorkerPointCloud.create(positions, { workers: 2 });
   const signal = AbortSignal.abort();
   await expect(remote.seenBy(ring, { signal })).rejects.toMatchObject({ name: "AbortError" });
-  await remote.dispose();
   expect(() => {
     cloud.dispose();
     cloud.seenBy(ring);
