@@ -55,11 +55,28 @@ def test_chunks_of_dask_arrays_are_tiles():
     assert refusal.value.code == "positions-length"
 
 
-@pytest.mark.parametrize("how", ["squares", "random"])
-@pytest.mark.parametrize("dtype", [np.float32, np.float64])
-@pytest.mark.parametrize("options", [{}, {"radius": 40_000.0}, {"inversion": {"power": 2}, "radius": 1000.0}])
+@pytest.fixture(autouse=True)
+def few_queries(monkeypatch):
+    """The spacing of a small cloud needs fewer queries. All of them take 3 s, however few points there are."""
+    monkeypatch.setattr(statistics, "QUERIES", 800)
+    monkeypatch.setattr(statistics.smallest, "__defaults__", (800,))
+
+
+#: Each cut, each precision and each flip at least once.
+CASES = pytest.mark.parametrize(
+    ("how", "dtype", "options"),
+    [
+        ("squares", np.float32, {}),
+        ("random", np.float64, {}),
+        ("random", np.float32, {"radius": 40_000.0}),
+        ("squares", np.float64, {"inversion": {"power": 1.01}, "radius": 1000.0}),
+    ],
+)
+
+
+@CASES
 def test_tiles_answer_as_one_cloud(how, dtype, options):
-    tiles = cut(town(20_000).astype(dtype), how)
+    tiles = cut(town(8000).astype(dtype), how)
     whole = PointCloud(np.concatenate(tiles))
     answers = visible_from_tiles(tiles, VIEWPOINTS, **options)
     assert len(answers) == len(VIEWPOINTS)
@@ -79,7 +96,7 @@ def test_far_coordinates_and_points_in_several_tiles():
 
 
 def test_the_scale_is_the_same_for_every_cut():
-    points = town(30_000)
+    points = town(10_000)
     scales = {
         visible_from_tiles(cut(points, how, seed), [])
         .options["inversion"]["exponential"]
@@ -225,7 +242,7 @@ def test_a_parquet_of_no_answers(tmp_path):
 
 
 def test_the_spacing_needs_no_sample():
-    points = np.concatenate([town(3000), town(3000)])
+    points = np.concatenate([town(1500), town(1500)])
     expected = visible_from_tiles([points], []).options["inversion"]["exponential"]
     for tiles in (cut(points, "squares"), [points[::2], points[1::2], points[:500]]):
         assert visible_from_tiles(tiles, [], share=0.001).options["inversion"]["exponential"] == expected
@@ -244,7 +261,7 @@ def test_waves_hold_each_tile_once_and_the_nearest_first():
 
 def test_a_question_goes_on_from_finished_tiles(tmp_path, monkeypatch):
     paths = []
-    for number, tile in enumerate(cut(town(20_000), "squares")):
+    for number, tile in enumerate(cut(town(6000), "squares")):
         paths.append(tmp_path / f"{number}.npy")
         np.save(paths[-1], tile)
     expected = visible_from_tiles(paths, VIEWPOINTS)
@@ -273,7 +290,7 @@ def test_a_question_goes_on_from_finished_tiles(tmp_path, monkeypatch):
 
 def test_what_is_kept_belongs_to_these_tiles(tmp_path):
     path = tmp_path / "a.npy"
-    np.save(path, town(5000))
+    np.save(path, town(2000))
     other = tmp_path / "b.npy"
     np.save(other, town(100, seed=9))
 
@@ -286,7 +303,7 @@ def test_what_is_kept_belongs_to_these_tiles(tmp_path):
 
     with pytest.raises(KeyboardInterrupt):
         ask(stop)
-    np.save(other, town(3000, seed=10))
+    np.save(other, town(1000, seed=10))
     for options in ({}, {"radius": 50_000.0}):
         answers = ask(**options)
         whole = PointCloud(np.concatenate([np.load(path), np.load(other)]))

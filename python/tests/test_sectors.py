@@ -8,7 +8,7 @@ pytest.importorskip("scipy", reason="the distributed extra is not installed")
 from hidden_point_removal import HprError, PointCloud, share_visible
 from hidden_point_removal.distributed import plan, sectors, visible_from_tiles
 
-from test_distributed import VIEWPOINTS, cut, town
+from test_distributed import CASES, VIEWPOINTS, cut, few_queries, town  # noqa: F401
 
 
 @pytest.fixture
@@ -19,9 +19,7 @@ def small(monkeypatch):
     monkeypatch.setattr(sectors, "SECTOR_POINTS", 1000)
 
 
-@pytest.mark.parametrize("how", ["squares", "random"])
-@pytest.mark.parametrize("dtype", [np.float32, np.float64])
-@pytest.mark.parametrize("options", [{}, {"radius": 40_000.0}, {"inversion": {"power": 1.01}, "radius": 1000.0}])
+@CASES
 def test_sectors_answer_as_one_cloud(small, how, dtype, options):
     tiles = cut(town(20_000).astype(dtype), how)
     # Points that are in several tiles, and at a viewpoint.
@@ -42,10 +40,10 @@ def test_sectors_answer_as_one_cloud(small, how, dtype, options):
 
 
 def test_a_sector_holds_a_part_of_the_points(monkeypatch):
-    monkeypatch.setattr(plan, "MERGED_POINTS", 15_000)
-    monkeypatch.setattr(plan, "HORIZON_POINTS", 1500)
-    monkeypatch.setattr(sectors, "SECTOR_POINTS", 10_000)
-    [answer] = [visible_from_tiles(cut(town(120_000), "squares"), [VIEWPOINTS[2]])]
+    monkeypatch.setattr(plan, "MERGED_POINTS", 6000)
+    monkeypatch.setattr(plan, "HORIZON_POINTS", 600)
+    monkeypatch.setattr(sectors, "SECTOR_POINTS", 4000)
+    [answer] = [visible_from_tiles(cut(town(40_000), "squares"), [VIEWPOINTS[2]])]
     [reports] = answer.sectors
     every = sum(report.own for report in reports)
     assert len(reports) >= 6
