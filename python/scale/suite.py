@@ -25,7 +25,7 @@ from city import UTM, VIEWPOINTS, city, cut, write
 from killed import Killer, command, kill_when_kept
 from pieces import QUESTIONS, WORKERS, ask_whole, cluster, compare, differences, peaks, share
 
-from hidden_point_removal.distributed import kernels, manifest, plan, read_tile, sectors, visible_from_tiles
+from hidden_point_removal.distributed import plan, sectors, visible_from_tiles
 
 HERE = Path(__file__).parent
 
@@ -34,7 +34,7 @@ CASES = {
     "spatial": ("Squares of the ground, LAZ, map coordinates", "LAZ", np.float64, UTM),
     "random": ("Random cut, NumPy files, float32", "NumPy", np.float32, np.zeros(3)),
 }
-PARTS = [*CASES, "sectors", "workers", "command", "costs"]
+PARTS = [*CASES, "sectors", "workers", "command"]
 
 
 class Report:
@@ -189,46 +189,6 @@ def kill_command(report, folder):
     report.say()
 
 
-def costs(report, folder):
-    """The processor time of each kernel for one tile, in one process."""
-    points = city(4_000_000)
-    # A block of 100 m.
-    tile = points[(np.abs(points[:, :2] - [450.0, 450.0]) < 50).all(axis=1)]
-    [path] = write(folder, [tile + UTM], "LAZ")
-    viewpoint = tuple((np.array(VIEWPOINTS["oblique"]) + UTM).tolist())
-    options = {"inversion": {"exponential": 0.1}}
-    queries = manifest.measure(path, 0.02).sample[:32]
-    known = manifest.measure(path, 0.02)
-    horizon = kernels.horizon_points(viewpoint, options, [known.sample])
-    parts = kernels.screen(path, 0, known.box, [viewpoint], [horizon], options)
-    halves = [kernels.Part(half, np.arange(len(half), dtype=np.uint64)) for half in (tile[::2] + UTM, tile[1::2] + UTM)]
-    halves[1] = kernels.Part(halves[1].positions, halves[1].ids + np.uint64(len(tile)))
-    asked = {
-        "read a LAZ tile": lambda: read_tile(path),
-        "`facts`: read, box, hashes, sample": lambda: manifest.measure(path, 0.02),
-        "`neighbors`: read, 32 queries": lambda: kernels.neighbors(path, queries, np.arange(len(queries))),
-        "`screen`: read, horizon, own hull": lambda: kernels.screen(
-            path, 0, known.box, [viewpoint], [horizon], options
-        ),
-        "`merge`": lambda: kernels.merge(halves, viewpoint, options),
-    }
-    report.say(
-        f"One tile of {len(tile):,} points, {path.stat().st_size / len(tile):.1f} bytes a point in LAZ, seen obliquely; "
-        f"{share(len(parts[0].ids), len(tile))} are left. The horizon has {len(horizon):,} points."
-    )
-    report.say()
-    report.say("| kernel | microseconds a point |")
-    report.say("|---|---:|")
-    for name, kernel in asked.items():
-        times = []
-        for _ in range(3):
-            started = time.process_time()
-            kernel()
-            times.append(time.process_time() - started)
-        report.say(f"| {name} | {1e6 * min(times) / len(tile):.2f} |")
-    report.say()
-
-
 def store(title, lines):
     """Puts a section into RESULTS.md, in place of an older one of the same title."""
     path = HERE / "RESULTS.md"
@@ -242,7 +202,6 @@ def store(title, lines):
 OTHERS = {
     "workers": ("Workers killed", kill_workers),
     "command": ("The command killed", kill_command),
-    "costs": ("Processor time of the kernels", costs),
 }
 
 HEAD = """# Tiles against one piece

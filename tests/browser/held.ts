@@ -4,8 +4,6 @@ interface Gate {
   /** Holds back the questions to the package's workers from this one on. The page's first worker has the number 0. */
   hold: (from: number) => void;
   release: () => void;
-  /** How many questions are held back. */
-  held: () => number;
 }
 
 /** Lets a test hold back the questions to the package's workers. Pass it to `openPage`. */
@@ -22,7 +20,6 @@ export async function holdable(page: Page): Promise<void> {
         first = Infinity;
         for (const send of waiting.splice(0)) send();
       },
-      held: () => waiting.length,
     } satisfies Gate);
     globalThis.Worker = class extends Worker {
       readonly #number: number;
@@ -51,11 +48,6 @@ export async function hold(page: Page, workers: "all" | "others" = "all"): Promi
     },
     workers === "all" ? 0 : 1,
   );
-}
-
-/** Waits until a question is held back. */
-export async function heldBack(page: Page): Promise<void> {
-  await page.waitForFunction(() => (globalThis as unknown as Gate).held() > 0);
 }
 
 export async function release(page: Page): Promise<void> {

@@ -53,7 +53,7 @@ export function provoke(pattern: RegExp): void {
 export async function openPage(
   query = "",
   options: BrowserContextOptions = {},
-  prepare?: (page: Page) => Promise<void>,
+  prepare?: (page: Page) => Promise<unknown>,
 ): Promise<Page> {
   // Each page is a first visit. offline.test.ts tests what stays between visits.
   // Software drawing takes nearly all the time. A quarter of the pixels, in the same layout, takes half of it.
@@ -95,7 +95,7 @@ function reportViolations(): void {
 export async function openReady(
   query = "",
   options: BrowserContextOptions = {},
-  prepare?: (page: Page) => Promise<void>,
+  prepare?: (page: Page) => Promise<unknown>,
 ): Promise<Page> {
   const page = await openPage(query, options, prepare);
   await reached(page, "ready");
@@ -245,17 +245,6 @@ function readDragon(resolution: string): Float32Array {
   const count = Number(/element vertex (\d+)/.exec(text)![1]);
   const lines = text.slice(text.indexOf("end_header\n") + 11).split("\n", count);
   return Float32Array.from(lines.flatMap((line) => line.trim().split(" ").slice(0, 3).map(Number)));
-}
-
-/** The middle of a cloud's bounding box. */
-export function middleOf(positions: ArrayLike<number>): number[] {
-  return [0, 1, 2].map((axis) => {
-    let [low, high] = [Infinity, -Infinity];
-    for (let i = axis; i < positions.length; i += 3) {
-      [low, high] = [Math.min(low, positions[i]!), Math.max(high, positions[i]!)];
-    }
-    return low / 2 + high / 2;
-  });
 }
 
 /** The mean of all channels in a square of a screenshot, from 0 to 255. */

@@ -12,7 +12,6 @@ import type { Answered, Consumer, Visit } from "./consumer";
 import { installPacked } from "./install";
 import { type Row, writeMatrix } from "./matrix";
 import { nodeScripts } from "./node";
-import { otherBrowsers } from "./other-browsers";
 import { pages } from "./pages";
 import { points, viewpoint } from "./question";
 import { visitWith } from "./visit";
@@ -39,7 +38,6 @@ const all: Consumer[] = [
   ...bundlers(visit),
   ...realApps(visit),
   ...pages(visit, `Chromium ${browser.version()}`),
-  ...otherBrowsers,
   ...nodeScripts,
 ];
 const asked = everything ? all : all.filter(({ further }) => further !== true);

@@ -2,7 +2,6 @@ import { existsSync, readFileSync, statSync } from "node:fs";
 import { createServer } from "node:http";
 import type { AddressInfo } from "node:net";
 import { extname, join, normalize } from "node:path";
-import { text } from "node:stream/consumers";
 
 const TYPES: Record<string, string> = {
   ".html": "text/html",
@@ -17,10 +16,7 @@ export const STRICT = {
 };
 
 /** A page with a place for the answer. */
-export const html = (script: string, sendTo?: string): string => {
-  const attribute = sendTo === undefined ? "" : ` data-send-to="${sendTo}"`;
-  return `<!doctype html><title>Consumer</title><output${attribute}></output>${script}`;
-};
+export const html = (script: string): string => `<!doctype html><title>Consumer</title><output></output>${script}`;
 
 interface ServeOptions {
   headers?: Record<string, string>;
@@ -28,24 +24,15 @@ interface ServeOptions {
   refused?: RegExp;
   /** Pages that are not files, by name. */
   pages?: Record<string, string>;
-  /** Called with the answer that a page sends. */
-  onSent?: (text: string) => void;
 }
 
 /** Serves a directory on a port of its own, so it has an origin of its own. */
 export async function serve(
   directory: string,
-  { headers = {}, refused, pages = {}, onSent }: ServeOptions = {},
+  { headers = {}, refused, pages = {} }: ServeOptions = {},
 ): Promise<{ address: string; [Symbol.asyncDispose](): Promise<void> }> {
   const server = createServer((request, response) => {
     const path = normalize(decodeURIComponent(new URL(request.url!, "http://localhost").pathname)).slice(1);
-    if (request.method === "POST") {
-      void text(request).then((sent) => {
-        response.end();
-        onSent?.(sent);
-      });
-      return;
-    }
     const file = join(directory, path);
     const isFile = refused?.test(path) !== true && existsSync(file) && statSync(file).isFile();
     const body = pages[path] ?? (isFile ? readFileSync(file) : undefined);

@@ -8,8 +8,6 @@ export const POINTS = [
 ] as const;
 export const FLAT: readonly number[] = POINTS.flat();
 
-export type Encoding = "ascii" | "little" | "big" | "compressed";
-
 /** A number in a binary file: its value, and the method of DataView that writes it. */
 export type Value = readonly [value: number, kind: "Uint8" | "Int32" | "Uint16" | "Float32" | "Float64"];
 
