@@ -12,6 +12,8 @@ const OPTIONS = [
   "--one-caller-inline-max-function-size=40",
   // Functions of one file stand together. They are alike, so gzip finds more to repeat: 1 kB.
   "--reorder-functions-by-name",
+  // Engines ignore the alignment of loads and stores. Where it is always the same, gzip saves 0.6 kB.
+  "--dealign",
 ];
 
 /** Shrinks a module as wasm-bindgen made it, in place. It must have names, and loses them. */

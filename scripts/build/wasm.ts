@@ -66,11 +66,14 @@ async function buildModule(folder: string, options: string[]): Promise<void> {
   numberImports([inRoot("src/ts", folder, "hpr_bg.wasm"), glue], glue);
 }
 
-/**
- * Less than the usual limit of 225 to 325 for putting functions into their callers. Functions in the hot loops are
- * marked `#[inline]`, which keeps the usual limit for them.
- */
-const SMALL = "-Cllvm-args=-inline-threshold=5";
+const SMALL = [
+  // Less than the usual limit of 225 to 325 for putting functions into their callers. Functions in the hot loops are
+  // marked `#[inline]`, which keeps the usual limit for them.
+  "inline-threshold=5",
+  // Values larger than a vector of three numbers are copied by one instruction. Copies of options, views and errors,
+  // number by number, would take 9 kB of 147.
+  ...["memcpy", "memmove", "memset"].map((copy) => `max-store-${copy}=3`),
+].map((option) => `-Cllvm-args=-${option}`);
 
 /** Flags for rustc. The wasm contains the paths of crates. The flags make them, and so the bytes, equal everywhere. */
 export async function wasmFlags(): Promise<string> {
@@ -78,5 +81,5 @@ export async function wasmFlags(): Promise<string> {
   const sources = join(process.env["CARGO_HOME"] ?? join(homedir(), ".cargo"), "registry", "src");
   const registries = existsSync(sources) ? readdirSync(sources) : [];
   const remaps = registries.map((registry) => `--remap-path-prefix=${join(sources, registry)}=crates`);
-  return [process.env["RUSTFLAGS"] ?? "", SMALL, ...remaps].join(" ").trim();
+  return [process.env["RUSTFLAGS"] ?? "", ...SMALL, ...remaps].join(" ").trim();
 }

@@ -3,8 +3,8 @@ import { existsSync } from "node:fs";
 import { findOnPath } from "../lib/paths.js";
 import { Problem, mustRun, run, say, succeeds } from "../lib/run.js";
 
-/** The oldest rustc that can compile the build tools. */
-const OLDEST = { major: 1, minor: 88 };
+/** The oldest rustc whose LLVM knows all options of scripts/build/wasm.ts. */
+const OLDEST = { major: 1, minor: 95 };
 
 /** The target of wasm-bindgen, for the browser and Node. */
 export const WASM_TARGET = "wasm32-unknown-unknown";

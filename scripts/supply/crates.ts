@@ -16,18 +16,20 @@ interface CratePackage {
   name: string;
   version: string;
   license: string | null;
+  /** Null for a crate of this repository. */
+  source: string | null;
   manifest_path: string;
   targets: { kind: string[] }[];
 }
 
 /** The crates from which the modules are compiled. Programs that only run during the compilation do not count. */
 export async function cratesOfWasm(): Promise<Component[]> {
-  const found = [...(await cratesOf("Cargo.toml", ["--features", "wasm"])), ...(await cratesOf("src/e57/Cargo.toml"))];
+  const found = [...(await cratesOf("src/cdylib/Cargo.toml")), ...(await cratesOf("src/e57/Cargo.toml"))];
   return [...new Map(found.map((crate) => [crate.name, crate])).values()];
 }
 
-async function cratesOf(manifest: string, options: string[] = []): Promise<Component[]> {
-  const { packages, resolve } = await metadata(manifest, options);
+async function cratesOf(manifest: string): Promise<Component[]> {
+  const { packages, resolve } = await metadata(manifest);
   const byId = new Map(packages.map((one) => [one.id, one]));
   const depsOf = new Map(resolve.nodes.map(({ id, deps }) => [id, deps]));
   const found = new Set<string>();
@@ -39,9 +41,8 @@ async function cratesOf(manifest: string, options: string[] = []): Promise<Compo
     }
   };
   visit(resolve.root);
-  found.delete(resolve.root);
   return packages
-    .filter(({ id }) => found.has(id))
+    .filter(({ id, source }) => found.has(id) && source !== null)
     .map(({ name, version, license, manifest_path }) => ({
       name,
       version,
@@ -50,8 +51,8 @@ async function cratesOf(manifest: string, options: string[] = []): Promise<Compo
     }));
 }
 
-async function metadata(manifest: string, options: string[]): Promise<Metadata> {
-  const where = ["--manifest-path", inRoot(manifest), ...options, "--filter-platform", WASM_TARGET];
+async function metadata(manifest: string): Promise<Metadata> {
+  const where = ["--manifest-path", inRoot(manifest), "--filter-platform", WASM_TARGET];
   const args = ["metadata", "--format-version", "1", "--locked", ...where];
   const { ok, output } = await run("cargo", args, { show: "nothing" });
   const json = output.split("\n").find((line) => line.startsWith("{"));

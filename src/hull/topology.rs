@@ -120,7 +120,7 @@ impl<T> Default for Surface<T> {
     }
 }
 
-impl<T: Copy> Surface<T> {
+impl<T: Copy + Default> Surface<T> {
     /// Becomes the tetrahedron of `apex` and the face (a, b, c), which is
     /// counter-clockwise seen from outside.
     pub(crate) fn start(
@@ -273,8 +273,12 @@ impl<T: Copy> Surface<T> {
             let slot = match self.free.pop() {
                 Some(slot) => slot,
                 None => {
-                    // Any dead face will do; a face of the fan replaces it.
-                    let dead = self.faces[self.cavity[0] as usize];
+                    // A face of the fan replaces it.
+                    let dead = Face {
+                        vertices: [NONE; 3],
+                        twins: [HalfEdge(0); 3],
+                        data: T::default(),
+                    };
                     push(&mut self.faces, dead)?;
                     (self.faces.len() - 1) as FaceId
                 }

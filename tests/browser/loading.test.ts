@@ -50,8 +50,8 @@ test("the download for the first cloud, with three.js, wasm and workers, is at m
   console.log(`${total} bytes before the first cloud is on screen`);
   expect(new Set(asked).size).toBe(asked.length);
   expect(asked.some((name) => name.endsWith(".wasm"))).toBe(true);
-  // 152 kB of it are the wasm, 91 kB are three.js.
-  expect(total).toBeLessThanOrEqual(320_000);
+  // 137 kB of it are the wasm, 91 kB are three.js.
+  expect(total).toBeLessThanOrEqual(306_000);
   await context.close();
 });
 

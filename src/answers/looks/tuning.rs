@@ -118,7 +118,7 @@ impl Tuning {
                 ..Self::plain(statistics)
             });
         }
-        let mut ring = libm::exp2(-LOOSER_BY_RANGE * growth);
+        let mut ring = libm::pow(2.0, -LOOSER_BY_RANGE * growth);
         let mut looser = ring;
         if is_thick {
             let cosine = cosine(noise, projection)?;
