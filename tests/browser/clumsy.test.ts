@@ -62,3 +62,24 @@ test("with the system's few colors, the words of a pressed button differ from it
   });
   expect(color).not.toBe(ground);
 });
+
+test("Escape closes a dialog alone, and the message behind it stays", async () => {
+  const page = await openReady("?sample=bunny&exponent=99", {}, withoutTools);
+  await page.locator("#source .how").click();
+  await page.locator("#how").waitFor();
+  await page.keyboard.press("Escape");
+  await expect.poll(() => page.locator("dialog[open]").count()).toBe(0);
+  expect(await page.locator("#message").isVisible()).toBe(true);
+});
+
+test("a part that cannot be downloaded later is told without the browser's words", async () => {
+  provoke(/Failed to load resource/);
+  const page = await openReady("?sample=bunny", {}, async (opened) => {
+    await withoutTools(opened);
+    await opened.route("**/assets/how-*.js", (route) => route.abort());
+  });
+  await page.locator("#source .how").click();
+  await expect
+    .poll(() => page.locator("#message p").textContent())
+    .toBe("The lesson could not be shown: a part of this page could not be downloaded; reload the page to try again.");
+});

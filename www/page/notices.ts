@@ -53,6 +53,10 @@ function plain(error: unknown): string {
   if (error instanceof HprError && error.code === "too-large") {
     return "it needs more memory than the browser gives to a page";
   }
+  // Each browser has its own words for it.
+  if (error instanceof TypeError && /module/i.test(error.message)) {
+    return "a part of this page could not be downloaded; reload the page to try again";
+  }
   // The library says then how a program goes on.
   if (isLoss(error)) return (error as HprError).message.split(";")[0]!;
   return error instanceof Error ? error.message.replace(/\.$/, "") : String(error);

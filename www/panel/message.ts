@@ -14,7 +14,8 @@ export class Message {
 
   constructor() {
     document.addEventListener("keydown", (event) => {
-      if (isKeyOf("cancel", event) && !this.#box.hidden) this.#dismiss();
+      // In a dialog, the key closes the dialog alone.
+      if (isKeyOf("cancel", event) && !this.#box.hidden && !document.querySelector("dialog[open]")) this.#dismiss();
     });
   }
 
