@@ -64,7 +64,7 @@ test("a stranger sees the cloud turn, a line sweep over it, a caption with its n
 
 test("the two halves differ in a quarter of the body's pixels or more, in both themes", async () => {
   const page = await openReady("?turn=0&compare=0", EVERY_PIXEL, stranger);
-  await addStyle(page, "#divider { opacity: 0 } #compare-note, #verbs, #drawer, #signs { visibility: hidden }");
+  await addStyle(page, "#divider { opacity: 0 } #compare-note, #verbs, #name, #drawer, #signs { visibility: hidden }");
   for (const colorScheme of ["dark", "light"] as const) {
     await page.emulateMedia({ colorScheme });
     const pictures: Buffer[] = [];

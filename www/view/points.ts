@@ -101,7 +101,9 @@ export class CloudPoints {
         const least = leastPixels(cloud.count, width / renderer.getPixelRatio()) * renderer.getPixelRatio();
         const kind = this.#width < TOUCHING_FROM * this.#spacing ? "small" : "touching";
         uniforms["most"]!.value = MOST_PIXELS[kind] * renderer.getPixelRatio();
-        uniforms["least"]!.value = each === this.ghost ? least / 1.5 : least;
+        // Visible points look solid beside all points, whose far side shows between them.
+        const share = each === this.ghost ? 1 / 1.5 : each === this.solid ? 1.2 : 1 / 1.2;
+        uniforms["least"]!.value = share * least;
       };
     }
     this.show("off");
