@@ -6,10 +6,11 @@ import { choose } from "./files.js";
 import { addressWritten, openPage, openReady, provoke, reached, status, upToDate } from "./support.js";
 
 /** The page as a stranger finds it. */
-const withoutTools = (page: Page) =>
-  page.addInitScript(() => {
+const withoutTools = async (page: Page) => {
+  await page.addInitScript(() => {
     localStorage.removeItem("hidden-point-removal: tools");
   });
+};
 
 test("a long refusal leaves the picture where it is, and the caption is about the cloud", async () => {
   const page = await openReady("?sample=bunny", {}, withoutTools);
