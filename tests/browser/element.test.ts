@@ -5,7 +5,7 @@ import { pathToFileURL } from "node:url";
 import { gzipSync } from "node:zlib";
 import type { Page } from "playwright-core";
 import { afterAll, beforeAll, expect, test } from "vitest";
-import type { PickedPoint } from "../../www/element/api.js";
+import type { HiddenPointCloudElement, PickedPoint } from "../../www/element/api.js";
 import { root } from "../root.js";
 import { asciiPly, ball } from "./clouds.js";
 import { servePage, type Site } from "./site.js";
@@ -44,6 +44,11 @@ function seenBy(page: Page, id: string) {
     visibleCount,
     viewpoint: viewpoint!,
   }));
+}
+
+/** Sets properties of the first element. */
+function set(page: Page, values: Partial<HiddenPointCloudElement>): Promise<void> {
+  return element(page, "a", (cloud, given) => void Object.assign(cloud, given), values);
 }
 
 /** The numbers of workers and of WebGL contexts. */
@@ -136,44 +141,12 @@ test("attributes and properties are followed, and invalid values are reported", 
     count: await inNode(positions, (cloud) => cloud.visibleFrom([1, 2, 9], ask).count),
   });
 
-  await change(
-    () =>
-      element(page, "a", (cloud) => {
-        cloud.exponent = 4;
-      }),
-    await answer({ exponent: 4 }),
-  );
+  await change(() => set(page, { exponent: 4 }), await answer({ exponent: 4 }));
   expect(await page.locator("#a").getAttribute("exponent")).toBe("4");
-  await change(
-    () =>
-      element(page, "a", (cloud) => {
-        cloud.removeAttribute("exponent");
-        cloud.radius = 250;
-      }),
-    { ...(await answer({ radius: 250 })), radius: 250 },
-  );
-  await change(
-    () =>
-      element(page, "a", (cloud) => {
-        cloud.inversion = "exponential";
-      }),
-    await answer({ inversion: { exponential: "auto" } }),
-  );
-  await change(
-    () =>
-      element(page, "a", (cloud) => {
-        cloud.inversion = cloud.radius = null;
-      }),
-    await answer({}),
-  );
-  await change(
-    () =>
-      element(page, "a", (cloud) => {
-        cloud.viewpoint = [9, 0, 3];
-        cloud.target = [0, 1, 0];
-      }),
-    { viewpoint: [9, 0, 3] },
-  );
+  await change(() => set(page, { exponent: null, radius: 250 }), { ...(await answer({ radius: 250 })), radius: 250 });
+  await change(() => set(page, { inversion: "exponential" }), await answer({ inversion: { exponential: "auto" } }));
+  await change(() => set(page, { inversion: null, radius: null }), await answer({}));
+  await change(() => set(page, { viewpoint: [9, 0, 3], target: [0, 1, 0] }), { viewpoint: [9, 0, 3] });
   expect(await element(page, "a", ({ target }) => target)).toEqual([0, 1, 0]);
 
   // A frozen viewpoint stays when the camera moves.
@@ -184,9 +157,7 @@ test("attributes and properties are followed, and invalid values are reported", 
   });
   expect(await element(page, "a", ({ viewpoint }) => viewpoint)).toEqual([-9, 1, 0]);
   expect((await heardBy(page, "a", "change")).at(-1)!.viewpoint).toEqual([9, 0, 3]);
-  await element(page, "a", (cloud) => {
-    cloud.frozen = false;
-  });
+  await set(page, { frozen: false });
   await expect.poll(async () => (await heardBy(page, "a", "change")).at(-1)!.viewpoint).toEqual([-9, 1, 0]);
 
   // The keys of the page work, and the attributes follow them.
@@ -238,21 +209,13 @@ test("attributes and properties are followed, and invalid values are reported", 
       up,
     ]),
   ).toEqual(["ready", 900, null, "off", null]);
-  const far = await hears(page, "a", "error", () =>
-    element(page, "a", (cloud) => {
-      cloud.viewpoint = [1e300, 0, 0];
-    }),
-  );
+  const far = await hears(page, "a", "error", () => set(page, { viewpoint: [1e300, 0, 0] }));
   expect(far).toMatchObject({
     attribute: "viewpoint",
     message: expect.stringMatching(/^The view that is asked for is too far away/) as string,
   });
   // The radius is a number, but too small for this cloud.
-  const small = await hears(page, "a", "error", () =>
-    element(page, "a", (cloud) => {
-      cloud.radius = 0.001;
-    }),
-  );
+  const small = await hears(page, "a", "error", () => set(page, { radius: 0.001 }));
   expect(small).toMatchObject({ code: "attribute" });
   expect(small.message).toMatch(/do not suit/);
 });
@@ -274,22 +237,14 @@ test("a missing file, a file that is no cloud, and a file that comes too late", 
   expect(await element(page, "a", ({ state, count }) => [state, count])).toEqual(["error", 0]);
   expect(await page.locator("#a").locator('[part="error"]').textContent()).toContain("404");
 
-  const second = await hears(page, "a", "error", () =>
-    element(page, "a", (cloud) => {
-      cloud.src = "clouds/page.ply";
-    }),
-  );
+  const second = await hears(page, "a", "error", () => set(page, { src: "clouds/page.ply" }));
   expect(second).toMatchObject({
     code: "source",
     message: expect.stringContaining("page.ply cannot be read: it does not begin like a PLY file") as string,
   });
 
   // An empty `src` names no file.
-  const none = await hears(page, "a", "error", () =>
-    element(page, "a", (cloud) => {
-      cloud.src = "";
-    }),
-  );
+  const none = await hears(page, "a", "error", () => set(page, { src: "" }));
   expect(none).toEqual({ code: "attribute", attribute: "src", message: "The attribute src names no file." });
   expect(await element(page, "a", ({ state }) => state)).toBe("empty");
 
@@ -321,9 +276,7 @@ test("a missing file, a file that is no cloud, and a file that comes too late", 
   await expect.poll(() => complaint.isVisible()).toBe(false);
   expect(await element(page, "a", async (cloud) => (await cloud.toBlob()).size)).toBeGreaterThan(1000);
 
-  await element(page, "a", (cloud) => {
-    cloud.src = null;
-  });
+  await set(page, { src: null });
   expect(await element(page, "a", ({ state, count, visible }) => [state, count, visible.length])).toEqual([
     "empty",
     0,
@@ -411,9 +364,7 @@ test("screen readers get a description of the element, and with announce the vis
   await expect
     .poll(() => page.locator("#a").getByRole("status").textContent())
     .toMatch(/^[\d,]+ of 1,839 points can be seen from here/);
-  await element(page, "a", (cloud) => {
-    cloud.announce = false;
-  });
+  await set(page, { announce: false });
   expect(await page.locator("#a").getByRole("status").textContent()).toBe("");
 });
 
