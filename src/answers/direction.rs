@@ -114,7 +114,7 @@ impl PointCloud {
             .blocks
             .farthest_distance(&self.sequence.points, viewpoint)?;
         if let Radius::Auto = choice {
-            let gap = radius::effective_gap(statistics, &self.known_noise()?.texture);
+            let gap = radius::effective_gap(statistics, &*self.known_noise()?);
             // Without a gap any bend gives the same answer.
             let bend = if gap > 0.0 {
                 radius::bend(statistics.count, gap)

@@ -56,27 +56,12 @@ const MEASURED: f64 = 0.6;
 const LEAST_OFF: f64 = 0.008;
 /// Its samples are uneven if one spacing in ten is this many times the median.
 const SPREAD: f64 = 1.8;
-/// How much larger the radius of one hull is for scans and for overlapping scans, and for even noise
-/// by its length in spacings.
-const SCANNED: f64 = 5.0;
+/// The gap of one hull's radius is the median spacing, divided by this: for scans, for overlapping
+/// scans, and for even noise by its standard deviation in spacings. The gap of clean surfaces heeds
+/// outliers and the sparse places of a scan.
+const SCANNED: f64 = 2.0;
 const OVERLAPPING: f64 = 4.0;
-const BY_NOISE: f64 = 5.0;
-
-/// What the radius of one hull takes from the sample.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Texture {
-    /// How much larger the radius is.
-    pub looser: f64,
-    /// The spacing that takes the place of the gap, where there is noise. The gap heeds outliers.
-    pub gap: Option<f64>,
-}
-
-impl Texture {
-    pub(crate) const PLAIN: Self = Self {
-        looser: 1.0,
-        gap: None,
-    };
-}
+const BY_NOISE: f64 = 1.5;
 
 /// A measured point.
 pub(crate) struct Sample {
@@ -102,7 +87,8 @@ pub(crate) struct Noise {
     pub is_even: bool,
     /// Whether points are about as far off their planes in small surroundings as in large ones.
     pub is_alike: bool,
-    pub texture: Texture,
+    /// What takes the place of the gap between samples where a surface was measured by a scanner.
+    pub gap: Option<f64>,
 }
 
 impl Noise {
@@ -116,17 +102,22 @@ impl Noise {
         let cut = surface::cut_off(spacings, longest);
         let spacing = surface::mean(&cut);
         let [small, large] = &measured.ratios;
-        let [small, large] = [low(small, LOW)?, low(large, LOW)?];
-        // It does not grow: q² = noise² + curvature·k, for k and 2k neighbors.
-        let constant = (4.0 * small * small - large * large) / 3.0;
+        let common = constant(low(small, LOW)?, low(large, LOW)?);
         let mut noise = Self {
             spacing,
-            ratio: TO_DEVIATION * square_root(constant.max(0.0)),
+            ratio: TO_DEVIATION * common,
             excess: 0.0,
             is_even: false,
-            is_alike: measured.is_alike()?,
-            texture: measured.texture(&cut)?,
+            is_alike: low(&measured.planes[0], 50)? >= MEASURED,
+            gap: None,
             samples: Vec::new(),
+        };
+        let is_measured = noise.is_alike && low(&measured.planes[1], 50)? >= LEAST_OFF;
+        let is_uneven = low(&cut, 90)? >= SPREAD * median;
+        let mut looser = if is_measured && is_uneven {
+            SCANNED
+        } else {
+            1.0
         };
         let is_large = noise.ratio > NOISY;
         if noise.ratio > CLEAN
@@ -141,16 +132,14 @@ impl Noise {
                 noise.excess = (noise.ratio - CLEAN) * spacing;
             }
             if !is_sheets && is_large {
-                noise.texture = Texture {
-                    looser: if noise.is_even {
-                        1.0 + BY_NOISE * (noise.ratio - CLEAN)
-                    } else {
-                        OVERLAPPING
-                    },
-                    gap: Some(median).filter(|_| noise.is_even),
+                looser = if noise.is_even {
+                    1.0 + BY_NOISE * noise.deviation() / spacing
+                } else {
+                    OVERLAPPING
                 };
             }
         }
+        noise.gap = Some(median / looser).filter(|_| looser > 1.0);
         noise.samples = measured.samples;
         Ok(noise)
     }
@@ -171,6 +160,12 @@ impl Noise {
     pub(crate) fn beyond_clean(&self) -> f64 {
         (self.deviation() - CLEAN * self.spacing).max(0.0)
     }
+}
+
+/// What does not grow of the distances off the quadric: q² = noise² + curvature·k, for k and 2k
+/// neighbors.
+fn constant(small: f64, large: f64) -> f64 {
+    square_root(((4.0 * small * small - large * large) / 3.0).max(0.0))
 }
 
 fn low(numbers: &[f64], percent: usize) -> Result<f64, OutOfMemory> {
@@ -247,21 +242,6 @@ impl Measured {
             kurtoses,
             planes,
         })
-    }
-
-    fn is_alike(&self) -> Result<bool, OutOfMemory> {
-        Ok(low(&self.planes[0], 50)? >= MEASURED)
-    }
-
-    fn texture(&self, spacings: &[f64]) -> Result<Texture, OutOfMemory> {
-        let is_measured = self.is_alike()? && low(&self.planes[1], 50)? >= LEAST_OFF;
-        if is_measured && low(spacings, 90)? >= SPREAD * low(spacings, 50)? {
-            return Ok(Texture {
-                looser: SCANNED,
-                ..Texture::PLAIN
-            });
-        }
-        Ok(Texture::PLAIN)
     }
 
     /// Whether the noise of these points is the same everywhere, as that of a sensor is. Registered

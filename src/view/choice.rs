@@ -80,13 +80,13 @@ impl PointCloud {
             return given(choice, farthest);
         }
         let statistics = &self.statistics()?;
-        let texture = &self.known_noise()?.texture;
+        let noise = &self.known_noise()?;
         let points = &self.sequence.points;
         let place = |p: &[f64]| [p[0], p[1], p[2]];
         let input = RadiusInput {
             viewpoint: &viewpoint,
             centroid: &statistics.centroid,
-            automatic: automatic(statistics, texture, viewpoint, farthest),
+            automatic: automatic(statistics, noise, viewpoint, farthest),
             farthest,
             reach: &|p| {
                 let reach = self.blocks.farthest_distance(points, place(p));

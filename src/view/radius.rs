@@ -3,7 +3,7 @@
 use crate::base::error::Error;
 use crate::base::real::square_root;
 use crate::cloud::neighbors::distance_squared;
-use crate::cloud::noise::Texture;
+use crate::cloud::noise::Noise;
 use crate::cloud::points::Given;
 use crate::cloud::statistics::Statistics;
 use crate::view::options::Radius;
@@ -116,22 +116,20 @@ const FACTOR: f64 = 0.4;
 
 pub(crate) fn automatic(
     statistics: &Statistics,
-    texture: &Texture,
+    noise: &Noise,
     viewpoint: [f64; 3],
     farthest: f64,
 ) -> f64 {
     let r_squared = distance_squared(viewpoint, statistics.middle) + statistics.variance;
-    let gap = effective_gap(statistics, texture);
+    let gap = effective_gap(statistics, noise);
     closed_form(statistics.count, r_squared, gap, farthest)
 }
 
 /// The gap of a clean surface that would have the same radius. Points of a measured surface lie
 /// behind each other, and only a larger sphere shows them.
-pub(crate) fn effective_gap(statistics: &Statistics, texture: &Texture) -> f64 {
-    let gap = texture.gap.map_or(statistics.gap, |gap| {
-        statistics.gap.min(gap * statistics.widening)
-    });
-    gap / texture.looser
+pub(crate) fn effective_gap(statistics: &Statistics, noise: &Noise) -> f64 {
+    let measured = noise.gap.map(|gap| gap * statistics.widening);
+    statistics.gap.min(measured.unwrap_or(f64::INFINITY))
 }
 
 /// R = 0.4·n^¼·r²/g, with n the number of distinct points, r the root-mean-square distance of the

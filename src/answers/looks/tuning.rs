@@ -103,7 +103,7 @@ impl Tuning {
         let is_thick = thickness > 0.0;
         let is_moved = survey.smooth.is_some() && given.is_none();
         let odds = Odds::of(
-            !is_moved && measured.texture.looser > 1.0,
+            !is_moved && measured.gap.is_some(),
             if is_moved { measured.ratio } else { 0.0 },
             growth,
             if excess > 0.0 {
