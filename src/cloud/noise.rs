@@ -27,11 +27,14 @@ const NEAR: [usize; 2] = [16, 32];
 const LOW: usize = 25;
 /// From the low percentile to the standard deviation of normal noise.
 const TO_DEVIATION: f64 = 1.15;
+/// Where scans overlap in half of a cloud, the low percentile may have no noise. This share of the
+/// median noise of single places counts, too. Clean clouds have at most 0.1, such scans 0.33.
+const WHERE_LAYERED: f64 = 0.4;
 /// A cloud is noisy if its noise is more than this, in spacings. Clean scans have up to 0.065, and
 /// registered ones 0.13 and more.
 const NOISY: f64 = 0.075;
 /// Less noise counts if it is even and [alike](MEASURED). The corners of clean meshes are not. This share of the noise never counts.
-pub(crate) const CLEAN: f64 = 0.04;
+const CLEAN: f64 = 0.04;
 /// Noise is even if this ratio of a low to a very low percentile is not reached. Normal noise gives
 /// 1.29, noisy objects at most 1.57, scans that overlap 2.0 and more.
 const EVEN: f64 = 1.8;
@@ -103,9 +106,16 @@ impl Noise {
         let spacing = surface::mean(&cut);
         let [small, large] = &measured.ratios;
         let common = constant(low(small, LOW)?, low(large, LOW)?);
+        let mut constants = with_capacity(small.len())?;
+        constants.extend(
+            small
+                .iter()
+                .zip(large)
+                .map(|(&small, &large)| constant(small, large)),
+        );
         let mut noise = Self {
             spacing,
-            ratio: TO_DEVIATION * common,
+            ratio: (TO_DEVIATION * common).max(WHERE_LAYERED * low(&constants, 50)?),
             excess: 0.0,
             is_even: false,
             is_alike: low(&measured.planes[0], 50)? >= MEASURED,

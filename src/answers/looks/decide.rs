@@ -40,7 +40,9 @@ impl Verdicts {
         part: &Part,
     ) -> Result<Left, OutOfMemory> {
         let place = |own: u32| look.place(points.get(part.place(own as usize)));
-        let corners = Corners::of(faces, &place, &|own| part.spacing(own as usize))?;
+        let widest = look.tuning.widest * look.unit;
+        let known = |own: u32| part.spacing(own as usize).min(widest);
+        let corners = Corners::of(faces, &place, &known)?;
         let mut left = self.take_vertices(look, faces, part, &corners)?;
         let longest = match self.longest {
             Some(longest) => longest,

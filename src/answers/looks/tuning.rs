@@ -45,6 +45,12 @@ const NEAR: f64 = 10.0;
 const LOOSER: f64 = 0.5;
 const LOOSER_BY_RANGE: f64 = 5.0;
 const COSINE_POWER: f64 = 3.5;
+/// Points that were moved lie so near their surface that hulls may have vertices behind it: the widest
+/// ring of a vertex shrinks by this. Errors are the same with twice as much.
+const MOVED: f64 = 2.0;
+/// The largest local spacing of a surface with noise, in spacings. Strays in front of a surface have
+/// larger ones, and the triangles between them are none.
+const WIDEST: f64 = 3.0;
 
 /// The numbers of one view, in the cloud's units.
 #[derive(Clone, Copy)]
@@ -55,6 +61,8 @@ pub(super) struct Tuning {
     pub growth: f64,
     /// By how much the widest ring of a vertex shrinks.
     pub ring: f64,
+    /// The largest local spacing of a vertex.
+    pub widest: f64,
     /// How far the widening and the length of long triangles count, from 0 to 1.
     pub wide: f64,
     /// How far behind a surface a point may be besides what its triangles allow.
@@ -112,12 +120,6 @@ impl Tuning {
                 0.0
             },
         );
-        if !(is_thick || growth > 0.0) {
-            return Ok(Self {
-                odds,
-                ..Self::plain(statistics)
-            });
-        }
         let mut ring = libm::pow(2.0, -LOOSER_BY_RANGE * growth);
         let mut looser = ring;
         if is_thick {
@@ -136,7 +138,12 @@ impl Tuning {
         Ok(Self {
             scales: scales(gap, looser),
             growth,
-            ring,
+            ring: if is_moved { MOVED * ring } else { ring },
+            widest: if is_moved || is_thick {
+                WIDEST * statistics.spacing
+            } else {
+                f64::INFINITY
+            },
             wide,
             thickness,
             aside: ASIDE * excess,
@@ -166,6 +173,7 @@ impl Tuning {
             scales: scales(gap, 1.0),
             growth: 0.0,
             ring: 1.0,
+            widest: f64::INFINITY,
             wide: 1.0,
             thickness: 0.0,
             aside: 0.0,
