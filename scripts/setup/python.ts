@@ -49,6 +49,7 @@ export async function setUpPython(packages: string[]): Promise<string | undefine
   return undefined;
 }
 
+/** Python compiles the modules that are imported. All of SciPy takes 7 s. */
 function pip(...args: string[]): [string, ...string[]] {
-  return [python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", ...args];
+  return [python, "-m", "pip", "install", "--quiet", "--no-compile", "--disable-pip-version-check", ...args];
 }
