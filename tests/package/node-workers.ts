@@ -1,6 +1,7 @@
 // Node's workers, wrapped so that a test can watch and replace them.
 import { syncBuiltinESMExports } from "node:module";
 import threads from "node:worker_threads";
+import { afterEach, beforeEach } from "vitest";
 
 export const OriginalWorker = threads.Worker;
 
@@ -18,4 +19,26 @@ export class CountedWorker extends OriginalWorker {
     running.add(this);
     this.on("exit", () => running.delete(this));
   }
+}
+
+/** The workers that each test has started so far. They end after it. `onStart` also gets their number, from 1. */
+export function watchedWorkers(onStart?: (worker: threads.Worker, number: number) => void): threads.Worker[] {
+  const started: threads.Worker[] = [];
+  beforeEach(() => {
+    started.length = 0;
+    replaceWorker(
+      class extends CountedWorker {
+        constructor(...args: ConstructorParameters<typeof OriginalWorker>) {
+          super(...args);
+          const number = started.push(this);
+          onStart?.(this, number);
+        }
+      },
+    );
+  });
+  afterEach(async () => {
+    replaceWorker(OriginalWorker);
+    await Promise.all([...running].map((worker) => worker.terminate()));
+  });
+  return started;
 }

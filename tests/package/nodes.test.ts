@@ -1,6 +1,5 @@
 // Many nodes that form one cloud. They must answer exactly like the cloud in one piece.
-import { syncBuiltinESMExports } from "node:module";
-import threads from "node:worker_threads";
+import type threads from "node:worker_threads";
 import * as THREE from "three";
 import { init, PointCloud, type VisibilityOptions } from "hidden-point-removal";
 import {
@@ -9,8 +8,9 @@ import {
   type HiddenPointNodesFilterOptions,
 } from "hidden-point-removal/nodes";
 import { HiddenPointFilter } from "hidden-point-removal/three";
-import { afterEach, beforeAll, beforeEach, describe, expect, it } from "vitest";
+import { afterEach, beforeAll, describe, expect, it } from "vitest";
 
+import { watchedWorkers } from "./node-workers";
 import { dragon, drawnOf, nodeOf, split, whole } from "./nodes-support";
 import { bumpySphere, problemOf } from "./support";
 
@@ -269,33 +269,12 @@ describe("a cloud split into nodes", () => {
 });
 
 describe("recovers from the death of the worker", () => {
-  const started: threads.Worker[] = [];
   /** Called with the first message of a worker. A fast worker sends it before anybody could ask for it. */
   let atFirstMessage: (worker: threads.Worker) => void = () => undefined;
-  const Original = threads.Worker;
-  const replace = (replacement: typeof threads.Worker) => {
-    threads.Worker = replacement;
-    syncBuiltinESMExports();
-  };
-
-  beforeEach(() => {
-    started.length = 0;
-    replace(
-      class extends Original {
-        constructor(...args: ConstructorParameters<typeof Original>) {
-          super(...args);
-          started.push(this);
-          this.once("message", () => {
-            atFirstMessage(this);
-          });
-        }
-      },
-    );
-  });
-
-  afterEach(() => {
-    atFirstMessage = () => undefined;
-    replace(Original);
+  watchedWorkers((worker) => {
+    worker.once("message", () => {
+      atFirstMessage(worker);
+    });
   });
 
   it("while it prepares several nodes", async () => {

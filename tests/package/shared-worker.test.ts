@@ -1,36 +1,19 @@
 // Many clouds in one worker.
-import { afterEach, beforeEach, expect, it } from "vitest";
+import { expect, it } from "vitest";
 
-import { CountedWorker, OriginalWorker, replaceWorker, running } from "./node-workers";
+import { running, watchedWorkers } from "./node-workers";
 import { bumpySphere, freshPackage, problemOf, readyPackage } from "./support";
 import { trappingWasm } from "./trapping-wasm";
 
 const { WorkerPointCloud, PointCloud } = await readyPackage();
 
 const farAway = [0, 0, 5];
-let started = 0;
-
-class StartedWorker extends CountedWorker {
-  constructor(...args: ConstructorParameters<typeof OriginalWorker>) {
-    super(...args);
-    started += 1;
-  }
-}
-
-beforeEach(() => {
-  started = 0;
-  replaceWorker(StartedWorker);
-});
-
-afterEach(async () => {
-  replaceWorker(OriginalWorker);
-  await Promise.all([...running].map((worker) => worker.terminate()));
-});
+const started = watchedWorkers();
 
 it("each cloud answers as if it were alone, and the worker ends with the last", async () => {
   const spheres = [1, 2, 3, 4, 5, 6].map((seed) => bumpySphere(seed, 500 * seed));
   const clouds = await Promise.all(spheres.map((positions) => WorkerPointCloud.create(positions, { shared: true })));
-  expect(started).toBe(1);
+  expect(started).toHaveLength(1);
   const expected = spheres.map((positions) => new PointCloud(positions).visibleFrom(farAway));
   expect(await Promise.all(clouds.map((cloud) => cloud.visibleFrom(farAway)))).toEqual(expected);
 
@@ -40,13 +23,13 @@ it("each cloud answers as if it were alone, and the worker ends with the last", 
   expect(await clouds[0]!.visibleFrom(farAway)).toEqual(expected[0]);
   const late = await WorkerPointCloud.create(spheres[1]!, { shared: true });
   expect(await late.visibleFrom(farAway)).toEqual(expected[1]);
-  expect(started).toBe(1);
+  expect(started).toHaveLength(1);
 
   await Promise.all([late.dispose(), clouds[0]!.dispose(), clouds[0]!.dispose()]);
   expect(running.size).toBe(0);
   const anew = await WorkerPointCloud.create(spheres[2]!, { shared: true });
   expect(await anew.visibleFrom(farAway)).toEqual(expected[2]);
-  expect(started).toBe(2);
+  expect(started).toHaveLength(2);
   await anew.dispose();
 });
 
@@ -84,7 +67,7 @@ it("a cloud that is refused or given up does not affect the others", async () =>
   control.abort();
   expect((await given).name).toBe("AbortError");
   expect((await stays.visibleFrom(farAway)).count).toBeGreaterThan(100);
-  expect(started).toBe(1);
+  expect(started).toHaveLength(1);
   await stays.dispose();
   expect(running.size).toBe(0);
 });

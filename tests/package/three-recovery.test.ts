@@ -1,12 +1,11 @@
 // Tests both filters for three.js: their worker dies, or their objects get wrong values.
-import type threads from "node:worker_threads";
 import { init, PointCloud } from "hidden-point-removal";
 import { HiddenPointNodesFilter } from "hidden-point-removal/nodes";
 import * as THREE from "three";
-import { afterEach, beforeAll, beforeEach, describe, expect, it, vi } from "vitest";
+import { beforeAll, describe, expect, it, vi } from "vitest";
 
 import { BOTH, filters, pointsOf } from "./both-filters";
-import { OriginalWorker, replaceWorker } from "./node-workers";
+import { watchedWorkers } from "./node-workers";
 import { bumpySphere, problemOf } from "./support";
 import { drawn } from "./three-support";
 
@@ -32,23 +31,9 @@ describe.each(BOTH)("%s", (_, make) => {
   const next = () => new Promise((resolve) => setTimeout(resolve, 1));
 
   describe("with workers that die as soon as they run", () => {
-    let started = 0;
     let dying = 0;
-
-    beforeEach(() => {
-      started = 0;
-      replaceWorker(
-        class extends OriginalWorker {
-          constructor(...args: ConstructorParameters<typeof threads.Worker>) {
-            super(...args);
-            if (started++ < dying) this.once("message", () => void this.terminate());
-          }
-        },
-      );
-    });
-
-    afterEach(() => {
-      replaceWorker(OriginalWorker);
+    const started = watchedWorkers((worker, number) => {
+      if (number <= dying) worker.once("message", () => void worker.terminate());
     });
 
     it("recovers from several deaths in a row without a report", async () => {
@@ -57,7 +42,7 @@ describe.each(BOTH)("%s", (_, make) => {
       const { filter, errors } = filterFor(points);
       filter.update(camera);
       await expect.poll(() => drawn(geometry)).toEqual(visibleFrom(camera));
-      expect(started).toBe(4);
+      expect(started).toHaveLength(4);
       expect(errors).toEqual([]);
     });
 
@@ -72,7 +57,7 @@ describe.each(BOTH)("%s", (_, make) => {
         filter.update(camera);
         await next();
       }
-      expect(started).toBe(4);
+      expect(started).toHaveLength(4);
       expect(drawn(geometry)).toHaveLength(3000);
       camera.position.set(5, 1, 0);
       await expect
@@ -81,7 +66,7 @@ describe.each(BOTH)("%s", (_, make) => {
           return drawn(geometry);
         })
         .toEqual(visibleFrom(camera));
-      expect(started).toBe(5);
+      expect(started).toHaveLength(5);
       expect(errors).toHaveLength(1);
     });
   });

@@ -2,9 +2,9 @@ import { getEventListeners } from "node:events";
 import { setFlagsFromString } from "node:v8";
 import { runInNewContext } from "node:vm";
 import type threads from "node:worker_threads";
-import { afterEach, beforeEach, describe, expect, it } from "vitest";
+import { describe, expect, it } from "vitest";
 
-import { OriginalWorker, replaceWorker } from "./node-workers";
+import { OriginalWorker, replaceWorker, watchedWorkers } from "./node-workers";
 import { bumpySphere, expectRefusal, freshPackage, problemOf, readyPackage } from "./support";
 import { trappingWasm } from "./trapping-wasm";
 
@@ -17,23 +17,7 @@ const farAway = [0, 0, 5];
 const loose = (value: unknown) => value as never;
 
 /** All threads that were started, so that a test can end one. */
-const started: threads.Worker[] = [];
-
-beforeEach(() => {
-  replaceWorker(
-    class extends OriginalWorker {
-      constructor(...args: ConstructorParameters<typeof OriginalWorker>) {
-        super(...args);
-        started.push(this);
-      }
-    },
-  );
-});
-
-afterEach(async () => {
-  replaceWorker(OriginalWorker);
-  await Promise.all(started.splice(0).map((worker) => worker.terminate()));
-});
+const started = watchedWorkers();
 
 describe("a cloud in a worker", () => {
   it("needs no init()", async () => {
