@@ -78,7 +78,7 @@ export async function hideControls(page: Page): Promise<void> {
   await page.addInitScript(() => {
     const sheet = new CSSStyleSheet();
     sheet.replaceSync(`
-      #verbs, #drawer, #signs, #marks, #tools, #panel { display: none !important }
+      #verbs, #name, #drawer, #signs, #marks, #tools, #panel, #divider, #compare-note { display: none !important }
       body { grid-template: minmax(0, 1fr) / minmax(0, 1fr) !important }`);
     document.adoptedStyleSheets.push(sheet);
   });
