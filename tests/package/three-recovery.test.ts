@@ -89,51 +89,28 @@ describe.each(BOTH)("%s", (_, make) => {
     expect(errors).toEqual([]);
   });
 
-  const loose = (object: object) => object as Record<string, unknown>;
-  it.each<[what: string, code: string, words: string, spoil: (points: THREE.Points) => () => void]>([
-    ...[undefined, null, {}, 7].map((value): [string, string, string, (points: THREE.Points) => () => void] => [
-      `a geometry that is ${JSON.stringify(value)}`,
-      "option",
-      "geometry",
-      (points) => replaced(loose(points), "geometry", value),
-    ]),
-    ...[undefined, null, {}, [1, 2, 3], 7].map(
-      (value): [string, string, string, (points: THREE.Points) => () => void] => [
-        `positions that are ${JSON.stringify(value)}`,
-        "positions-type",
-        "position",
-        ({ geometry }) => replaced(geometry.attributes, "position", value),
-      ],
-    ),
-    [
-      "no attributes",
+  type Wrong = [of: (points: THREE.Points) => object, name: string, value: unknown, code: string, words: string];
+  const itself = (points: THREE.Points) => points;
+  const geometryOf = ({ geometry }: THREE.Points) => geometry;
+  const attributesOf = ({ geometry }: THREE.Points) => geometry.attributes;
+  it.each<Wrong>([
+    ...[undefined, null, {}, 7].map((value): Wrong => [itself, "geometry", value, "option", "geometry"]),
+    ...[undefined, null, {}, [1, 2, 3], 7].map((value): Wrong => [
+      attributesOf,
+      "position",
+      value,
       "positions-type",
       "position",
-      ({ geometry }) => replaced(loose(geometry), "attributes", undefined),
-    ],
-    ["an index that is an array", "option", "index", ({ geometry }) => replaced(loose(geometry), "index", [1, 2, 3])],
-    ["an index that is undefined", "option", "index", ({ geometry }) => replaced(loose(geometry), "index", undefined)],
-    [
-      "an index of NaN",
-      "option",
-      "index[1]",
-      ({ geometry }) => replaced(loose(geometry), "index", new THREE.Float32BufferAttribute([0, NaN], 1)),
-    ],
-    ["no draw range", "option", "drawRange", ({ geometry }) => replaced(loose(geometry), "drawRange", undefined)],
-    [
-      "a draw range of NaN",
-      "option",
-      "drawRange",
-      ({ geometry }) => replaced(loose(geometry), "drawRange", { start: NaN, count: 7 }),
-    ],
-    ["no material", "option", "dimMaterial", (points) => replaced(loose(points), "material", undefined)],
-    [
-      "a material that cannot be dimmed",
-      "option",
-      "ShaderMaterial",
-      (points) => replaced(loose(points), "material", new THREE.ShaderMaterial()),
-    ],
-  ])("refuses %s once while it filters, and goes on after the value is restored", async (_what, code, words, spoil) => {
+    ]),
+    [geometryOf, "attributes", undefined, "positions-type", "position"],
+    [geometryOf, "index", [1, 2, 3], "option", "index"],
+    [geometryOf, "index", undefined, "option", "index"],
+    [geometryOf, "index", new THREE.Float32BufferAttribute([0, NaN], 1), "option", "index[1]"],
+    [geometryOf, "drawRange", undefined, "option", "drawRange"],
+    [geometryOf, "drawRange", { start: NaN, count: 7 }, "option", "drawRange"],
+    [itself, "material", undefined, "option", "dimMaterial"],
+    [itself, "material", new THREE.ShaderMaterial(), "option", "ShaderMaterial"],
+  ])("%s.%s = %s: refuses it once, and goes on after it is restored", async (of, name, value, code, words) => {
     const { points, camera, geometry } = pointsOf(sphere);
     const { filter, errors } = filterFor(points, { worker: false, mode: "dim" });
     const update = async () => {
@@ -142,7 +119,7 @@ describe.each(BOTH)("%s", (_, make) => {
     };
     filter.update(camera);
     await expect.poll(() => drawn(geometry)).toEqual(visibleFrom(camera));
-    const mend = spoil(points);
+    const mend = replaced(of(points) as Record<string, unknown>, name, value);
     for (let frame = 0; frame < 4; frame++) await update();
     expect(errors).toHaveLength(1);
     expect(errors[0]).toMatchObject({ name: "HprError", code, message: expect.stringContaining(words) as string });
