@@ -5,10 +5,10 @@ import { type Counts, tryCases } from "../fuzz/stream";
 it("octrees from servers that fail, and with changed bytes, are answered as one version of them, or refused", async () => {
   const tallies = new Map<string, Counts>();
   const said: string[] = [];
-  await tryCases(1, 600, tallies, (text) => said.push(text));
+  await tryCases(1, 400, tallies, (text) => said.push(text));
   expect(said.slice(0, 5).join("\n\n")).toBe("");
   const all = [...tallies.values()];
   expect(tallies.size).toBe(8);
   for (const { exact, refused } of all) expect(Math.min(exact, refused)).toBeGreaterThan(0);
-  expect(all.reduce((sum, { tried }) => sum + tried, 0)).toBe(600);
+  expect(all.reduce((sum, { tried }) => sum + tried, 0)).toBe(400);
 });
