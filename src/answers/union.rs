@@ -8,6 +8,7 @@ use crate::answers::threads::Threads;
 use crate::answers::visibility::Visibility;
 use crate::base::allocation::{filled, with_capacity};
 use crate::base::error::{Error, in_range};
+use crate::base::real::sine_cosine;
 use crate::base::real::square_root;
 use crate::cloud::point_cloud::PointCloud;
 use crate::view::options::{Inversion, Options};
@@ -184,7 +185,7 @@ pub fn ring_of_viewpoints(
     let mut ring = with_capacity(count)?;
     for k in 0..count {
         let turn = core::f64::consts::TAU * (k as f64 / count as f64);
-        let (sin, cos) = libm::sincos(turn);
+        let (sin, cos) = sine_cosine(turn);
         ring.push(finite(center + (right * cos + up * sin) * radius)?);
     }
     Ok(ring)

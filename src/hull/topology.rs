@@ -273,14 +273,15 @@ impl<T: Copy + Default> Surface<T> {
             let slot = match self.free.pop() {
                 Some(slot) => slot,
                 None => {
-                    // A face of the fan replaces it.
-                    let dead = Face {
+                    let slot = self.faces.len();
+                    reserve(&mut self.faces, 1)?;
+                    // A face of the fan replaces it. It is made in its place, since a copy takes longer.
+                    self.faces.resize_with(slot + 1, || Face {
                         vertices: [NONE; 3],
                         twins: [HalfEdge(0); 3],
                         data: T::default(),
-                    };
-                    push(&mut self.faces, dead)?;
-                    (self.faces.len() - 1) as FaceId
+                    });
+                    slot as FaceId
                 }
             };
             push(&mut self.cavity, slot)?;

@@ -1,6 +1,7 @@
 //! What a lens does to the image of a pinhole: COLMAP's models.
 
 use crate::base::error::Error;
+use crate::base::real::sine_cosine;
 use crate::base::real::square_root;
 
 /// COLMAP's models of a camera, in the order of its numbers for them. Each lists the coefficients of
@@ -132,7 +133,7 @@ impl Distortion {
         let zero = [0.0; 2];
         let (bend, radial, below, tangential, prism) = match model {
             CameraModel::Fov => {
-                let (sin, cos) = libm::sincos(0.5 * a);
+                let (sin, cos) = sine_cosine(0.5 * a);
                 let twice = 2.0 * sin / cos;
                 let bend = if a > 0.0 {
                     Bend::Fov { omega: a, twice }

@@ -3,6 +3,7 @@
 use core::f64::consts::PI;
 
 use crate::base::error::{Error, in_range};
+use crate::base::real::sine_cosine;
 
 /// The largest curvature of a pit whose bottom is still found visible (Lemma 4.3), in the
 /// inverse of the unit of length:
@@ -32,7 +33,7 @@ pub fn permissible_curvature(radius: f64, r: f64, beta: f64) -> Result<f64, Erro
     // In units of R; numerator and denominator times t³·sin³β, t = r ÷ R. Nothing overflows.
     // The denominator is the paper's, written without differences:
     // 4Rr − 4R² + (2R − r)²/sin²β = r² + (2R − r)²·cot²β.
-    let (sin, cos) = libm::sincos(beta);
+    let (sin, cos) = sine_cosine(beta);
     let t = r / radius;
     let far = 2.0 - t;
     let above = 2.0 * sin * (2.0 * far * cos * cos + t * sin * sin);

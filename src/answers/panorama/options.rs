@@ -4,6 +4,7 @@ use core::f64::consts::{PI, TAU};
 use glam::DVec3;
 
 use crate::base::error::{Error, in_range};
+use crate::base::real::sine_cosine;
 use crate::base::real::square_root;
 use crate::view::resolved::normalized;
 
@@ -77,8 +78,8 @@ impl Image {
 
     /// The direction of a pixel's middle, of length 1.
     pub fn direction(&self, row: usize, column: usize) -> DVec3 {
-        let (across, along) = libm::sincos(PI * (row as f64 + 0.5) / self.height as f64);
-        let (sin, cos) = libm::sincos(TAU * column as f64 / self.width as f64);
+        let (across, along) = sine_cosine(PI * (row as f64 + 0.5) / self.height as f64);
+        let (sin, cos) = sine_cosine(TAU * column as f64 / self.width as f64);
         (self.first * cos + self.second * sin) * across + self.up * along
     }
 }

@@ -10,6 +10,7 @@ use glam::DVec3;
 use crate::answers::sample::even_places;
 use crate::answers::visibility_map::options::MapOptions;
 use crate::base::allocation::{OutOfMemory, filled, push, with_capacity};
+use crate::base::real::sine_cosine;
 use crate::base::real::{larger, smaller, square_root};
 use crate::cloud::points::Points;
 use crate::hull::{Window, place};
@@ -274,7 +275,7 @@ impl Cone {
         let axis = normalized(direction)?;
         (half < core::f64::consts::PI).then(|| Self {
             axis,
-            cosine: libm::cos(half),
+            cosine: sine_cosine(half).1,
         })
     }
 
