@@ -43,25 +43,6 @@ fn borders_of_the_image_belong_to_it_above_and_on_the_left() {
 }
 
 #[test]
-fn duplicates_and_georeferenced_points_have_their_own_pixels() {
-    let place = [523_000.0, 4_657_000.0, 120.0];
-    let at = |p: [f64; 3]| core::array::from_fn(|i| place[i] + p[i]);
-    let points = [
-        at([1.0, 0.0, 4.0]),
-        at([1.0, 0.0, 4.0]),
-        at([0.0, 2.0, 4.0]),
-    ];
-    let cloud = PointCloud::new(&points).unwrap();
-    let mut camera = Camera::new(100.0, 100.0, 50.0, 50.0, 101.0, 101.0);
-    matrix(&mut camera)[12..15].copy_from_slice(&place);
-    let seen = cloud
-        .visible_from_camera(&camera, &Options::default())
-        .unwrap();
-    assert_eq!(seen.visibility.indices(), [0, 1, 2]);
-    assert_eq!(seen.pixels, [[75.0, 50.0], [75.0, 50.0], [50.0, 100.0]]);
-}
-
-#[test]
 fn cameras_that_are_none_are_refused() {
     let cloud = PointCloud::new(&[[0.0, 0.0, 1.0]]).unwrap();
     let good = Camera::new(10.0, 10.0, 5.0, 5.0, 10.0, 10.0);

@@ -66,24 +66,6 @@ fn sectors_of_a_large_cloud_share_the_work() {
 }
 
 #[test]
-fn changed_clouds_divide_as_new_ones() {
-    let mut rng = Rng::new(10);
-    let points = shapes::bumpy(&mut rng, 3000);
-    let mut cloud = PointCloud::new(&points[..1000]).unwrap();
-    for (title, change) in [("appended to", 0), ("removed from", 1), ("emptied", 2)] {
-        match change {
-            0 => cloud.append(&points[1000..]).unwrap(),
-            1 => cloud.remove(&(500..1500).collect::<Vec<_>>()).unwrap(),
-            _ => cloud.remove(&(0..3000).collect::<Vec<_>>()).unwrap(),
-        }
-        for viewpoint in [[0.0, 0.0, 3.0], [0.1, 0.0, 0.0]] {
-            compare(&cloud, viewpoint, &Options::default(), 2, title);
-            compare(&cloud, viewpoint, &Options::default(), 3, title);
-        }
-    }
-}
-
-#[test]
 fn refusals_are_those_of_the_whole() {
     let cloud = PointCloud::new(&shapes::bumpy(&mut Rng::new(11), 500)).unwrap();
     for radius in [f64::NAN, -1.0, 0.5, f64::MAX] {

