@@ -3,7 +3,7 @@ import type { Object3D, Points } from "three";
 import { HiddenPointNodesFilter as NodesFilter } from "./nodes/filter.js";
 import type { HiddenPointNodesFilterOptions } from "./nodes/options.js";
 import { HiddenPointFilter as Filter } from "./three/filter.js";
-import { MapNodes } from "./three/map-nodes.js";
+import { patchNodes } from "./three/map-nodes.js";
 import type { HiddenPointFilterOptions } from "./three/options.js";
 
 export { HprError, type HprErrorCode } from "./base/errors.js";
@@ -19,7 +19,7 @@ export type { FollowOptions } from "./query/follow-options.js";
 export class HiddenPointFilter extends Filter {
   /** @throws HprError as the other filter. */
   constructor(points: Points, options?: HiddenPointFilterOptions) {
-    super(points, options, MapNodes.of);
+    super(points, options, patchNodes);
   }
 }
 
@@ -27,6 +27,6 @@ export class HiddenPointFilter extends Filter {
 export class HiddenPointNodesFilter extends NodesFilter {
   /** @throws HprError as the other filter. */
   constructor(root: Object3D, options?: HiddenPointNodesFilterOptions) {
-    super(root, options, MapNodes.of);
+    super(root, options, patchNodes);
   }
 }

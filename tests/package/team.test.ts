@@ -192,7 +192,7 @@ describe("a view", () => {
     cloud.recycle(await asked);
     const voted = cloud.visibleFrom(farAway, { vote: 3 });
     expect([scripted[0]!.moved.at(-1), scripted[1]!.moved.length]).toEqual([[8], 1]);
-    expect(newest()[0]).toMatchObject({ divisible: false, sliced: false, listing: false });
+    expect(newest()[0]).toMatchObject({ divisible: false, sliced: false });
     scripted[0]!.answers(found([3], 100));
     expect([...(await voted).indices]).toEqual([3]);
     const radius = cloud.autoRadius(farAway);

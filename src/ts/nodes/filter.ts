@@ -2,7 +2,7 @@ import type { Object3D, Points } from "three";
 
 import { describe, HprError } from "../base/errors.js";
 import { requireUniformScale } from "../three/eye.js";
-import { MapMaterial, type PatchMaterial } from "../three/map-material.js";
+import { patchMaterial, type PatchMaterial } from "../three/map-material.js";
 import { GatheredFilter } from "./gathered-filter.js";
 import type { CloudNode } from "./node.js";
 import { NodeSet } from "./node-set.js";
@@ -41,7 +41,7 @@ export class HiddenPointNodesFilter extends GatheredFilter<CloudNode> {
   constructor(root: Object3D, options?: HiddenPointNodesFilterOptions);
   /** @internal */
   constructor(root: Object3D, options: HiddenPointNodesFilterOptions | undefined, patch?: PatchMaterial);
-  constructor(root: Object3D, options?: HiddenPointNodesFilterOptions, patch: PatchMaterial = MapMaterial.of) {
+  constructor(root: Object3D, options?: HiddenPointNodesFilterOptions, patch: PatchMaterial = patchMaterial) {
     if (typeof (root as unknown) !== "object" || (root as unknown) === null || !("isObject3D" in root)) {
       throw new HprError("option", `root must be a THREE.Object3D, got ${describe(root)}`);
     }

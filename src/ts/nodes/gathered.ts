@@ -148,8 +148,7 @@ export class Gathered<Node extends GatheredNode> {
     if (positions.length === 0) {
       return;
     }
-    // The cloud need not list hidden points, because each node lists its own.
-    const cloud = await prepareCloud({ numbers: positions, own: true }, { ...this.#settings, dim: false });
+    const cloud = await prepareCloud({ numbers: positions, own: true }, this.#settings);
     if (this.#isClosed) {
       void cloud.dispose();
       throw new HprError("disposed", "this filter has been disposed of");

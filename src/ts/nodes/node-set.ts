@@ -8,14 +8,12 @@ import type { NodesDrawing } from "./gathered-filter.js";
 import type { Refused } from "./gathered.js";
 import { CloudNode } from "./node.js";
 import type { NodesSettings } from "./options.js";
-import { Places } from "./place.js";
 
 /** The present nodes. The set is checked in every frame. If there is no change, nothing is allocated. */
 export class NodeSet implements NodesDrawing<CloudNode> {
   readonly #root: Object3D;
   readonly #settings: NodesSettings;
   readonly #refused: Refused;
-  readonly #places: Places;
   readonly #nodes = new Map<Points, CloudNode>();
   readonly #textures = new MapTextures();
   /** The last map for each camera. New nodes are drawn by it. */
@@ -36,7 +34,6 @@ export class NodeSet implements NodesDrawing<CloudNode> {
     this.#root = root;
     this.#settings = settings;
     this.#refused = refused;
-    this.#places = new Places(root);
   }
 
   /** Grows with every change of the nodes. */
@@ -122,7 +119,6 @@ export class NodeSet implements NodesDrawing<CloudNode> {
     // This comes first: if it throws, nothing has changed yet.
     const given = nodes === undefined ? undefined : listed(nodes());
     this.#frame += 1;
-    this.#places.next();
     this.#seen = 0;
     if (given === undefined) {
       this.#takeUpBelow(this.#root);
@@ -169,7 +165,7 @@ export class NodeSet implements NodesDrawing<CloudNode> {
       return undefined;
     }
     try {
-      const node = new CloudNode(points, this.#places, this.#settings, this.#textures);
+      const node = new CloudNode(points, this.#root, this.#settings, this.#textures);
       node.display.enabled = this.#enabled;
       node.display.select(this.#camera);
       for (const [camera, map] of this.#maps) node.map(camera, map);

@@ -1,4 +1,4 @@
-import { Matrix4, type Points } from "three";
+import { Matrix4, type Object3D, type Points } from "three";
 
 import { nonFinite } from "../instance/failure.js";
 import { versionOf } from "../three/attribute.js";
@@ -8,7 +8,7 @@ import type { VisibilityMap } from "../cloud/visibility-map.js";
 import type { MapTextures } from "../three/mapped-points.js";
 import type { GatheredNode } from "./gathered.js";
 import type { NodesSettings } from "./options.js";
-import type { Place, Places } from "./place.js";
+import { placeIn } from "./place.js";
 import { straysIn } from "./strays.js";
 
 const IDENTITY = new Matrix4();
@@ -22,22 +22,22 @@ export class CloudNode implements GatheredNode {
   /** Grows with every change of the node's points. */
   revision = 1;
   readonly #settings: NodesSettings;
-  readonly #places: Places;
-  readonly #place: Place;
-  #placeVersion = -1;
+  readonly #root: Object3D;
+  /** The way to the root's space, now and when the points were read. */
+  readonly #place = new Matrix4();
+  readonly #read = new Matrix4();
   /** The state in which the node was refused. The node is not read again until its state changes. */
   #refused: readonly unknown[] | undefined;
   /** Whether its points were read in its present revision. */
   #isRead = false;
 
   /** @throws HprError `option` if its geometry has a filter already, or if its material cannot be dimmed. */
-  constructor(points: Points, places: Places, settings: NodesSettings, textures: MapTextures) {
+  constructor(points: Points, root: Object3D, settings: NodesSettings, textures: MapTextures) {
     requireUnfiltered(points.geometry);
     this.points = points;
     this.display = new Display(points, settings, textures);
     this.#settings = settings;
-    this.#places = places;
-    this.#place = places.of(points);
+    this.#root = root;
     this.display.isPending = settings.hidesPending;
   }
 
@@ -54,7 +54,7 @@ export class CloudNode implements GatheredNode {
     this.#isRead = false;
     this.#refused = undefined;
     this.display.leaveOthers();
-    if (this.display.drawn.order === undefined) {
+    if (!this.display.isAnswered) {
       this.display.isPending = this.#settings.hidesPending;
     }
     return true;
@@ -68,8 +68,8 @@ export class CloudNode implements GatheredNode {
   read(): Float32Array | Float64Array {
     this.#isRead = true;
     try {
-      this.#placeVersion = this.#places.versionOf(this.#place);
-      const { numbers } = this.display.drawn.take(this.#matrix);
+      const { numbers } = this.display.drawn.take(this.#matrix());
+      this.#read.copy(this.#place);
       const { count, first } = straysIn(numbers);
       if (count > 0 && this.#settings.nonFinite === "error") {
         throw nonFinite(count, first);
@@ -84,8 +84,7 @@ export class CloudNode implements GatheredNode {
 
   /** Draws the node by a map of the whole cloud. */
   map(camera: unknown, map: VisibilityMap): void {
-    this.#places.versionOf(this.#place);
-    this.display.map(camera, map, this.#matrix);
+    this.display.map(camera, map, this.#matrix());
   }
 
   #isUnchanged(): boolean {
@@ -93,12 +92,12 @@ export class CloudNode implements GatheredNode {
     if (refused !== undefined) {
       return this.#state().every((value, i) => Object.is(value, refused[i]));
     }
-    return this.display.drawn.isUnchanged && this.#places.versionOf(this.#place) === this.#placeVersion;
+    return this.display.drawn.isUnchanged && placeIn(this.#root, this.points, this.#place).equals(this.#read);
   }
 
-  get #matrix(): readonly number[] | undefined {
-    const { matrix } = this.#place;
-    return matrix.equals(IDENTITY) ? undefined : matrix.elements;
+  #matrix(): readonly number[] | undefined {
+    const place = placeIn(this.#root, this.points, this.#place);
+    return place.equals(IDENTITY) ? undefined : place.elements;
   }
 
   /** The state that a refusal can depend on. */

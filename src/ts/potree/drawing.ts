@@ -1,5 +1,6 @@
 import type { Camera } from "three";
 
+import { override } from "../base/override.js";
 import type { VisibilityMap } from "../cloud/visibility-map.js";
 import type { NodesDrawing } from "../nodes/gathered-filter.js";
 import type { FilterSettings } from "../three/options.js";
@@ -37,11 +38,6 @@ export class PotreeDrawing implements NodesDrawing<Tile> {
   readonly #textures: Textures;
   readonly #tiles = new Map<OctreeNode, Tile>();
   readonly #shown = new Map<unknown, Shown>();
-  /** What each node is seen by: the same for all frames with the same map. */
-  readonly #seen = new WeakMap<
-    Tile,
-    { map: VisibilityMap; matrix: readonly number[]; numbers: ReturnType<VisibilityMap["seenIn"]> }
-  >();
   readonly #restore: () => void;
   #camera: unknown;
   #frame = 0;
@@ -56,11 +52,6 @@ export class PotreeDrawing implements NodesDrawing<Tile> {
 
   get isAble(): boolean {
     return this.#textures.readsFloats;
-  }
-
-  /** The number of points of the nodes that are drawn. */
-  get total(): number {
-    return this.present().reduce((sum, { count }) => sum + count, 0);
   }
 
   follow(): void {
@@ -184,12 +175,7 @@ export class PotreeDrawing implements NodesDrawing<Tile> {
       const through = isPatched ? this.#through(shader, nodes) : shader;
       renderNodes.call(renderer, cloud, nodes, data, camera, target, through, params);
     };
-    Object.assign(renderer, { renderOctree: octree, renderNodes: own });
-    return () => {
-      // Both are methods of the class. Somebody else may have changed them after this filter.
-      if (renderer.renderOctree === octree) Reflect.deleteProperty(renderer, "renderOctree");
-      if (renderer.renderNodes === own) Reflect.deleteProperty(renderer, "renderNodes");
-    };
+    return override(renderer, { renderOctree: octree, renderNodes: own });
   }
 
   /** The shader, which also gets the numbers of each node when Potree tells it the node's own number. */
@@ -233,20 +219,10 @@ export class PotreeDrawing implements NodesDrawing<Tile> {
     const isMapped = tile !== undefined && map !== undefined && map.data.length > 0;
     gl.uniform1f(at["hprMode"]!, isMapped ? MODE.map : MODE.all);
     if (isMapped) {
-      const { viewpoint, turn, margins } = this.#numbersOf(tile, map);
+      const { viewpoint, turn, margins } = map.seenIn(tile.matrix);
       gl.uniform3fv(at["hprEye"]!, viewpoint);
       gl.uniformMatrix3fv(at["hprTurn"]!, false, turn);
       gl.uniform4fv(at["hprMargins"]!, margins);
     }
-  }
-
-  #numbersOf(tile: Tile, map: VisibilityMap): ReturnType<VisibilityMap["seenIn"]> {
-    const { matrix } = tile;
-    let seen = this.#seen.get(tile);
-    if (seen?.map !== map || seen.matrix !== matrix) {
-      seen = { map, matrix, numbers: map.seenIn(matrix) };
-      this.#seen.set(tile, seen);
-    }
-    return seen.numbers;
   }
 }

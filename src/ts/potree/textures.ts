@@ -6,7 +6,6 @@ type Context = WebGLRenderingContext | WebGL2RenderingContext;
 /** The texture of maps and that of answers, in Potree's own context. It may be one of WebGL 1. */
 export class Textures {
   readonly #gl: Context;
-  readonly #isWebGL2: boolean;
   readonly #textures = new Map<object, WebGLTexture>();
   /** The units that they are bound to: the last ones, which Potree does not use. */
   readonly units: readonly [map: number, answer: number];
@@ -15,15 +14,10 @@ export class Textures {
 
   constructor(gl: Context) {
     this.#gl = gl;
-    this.#isWebGL2 = "texStorage2D" in gl;
     const units = gl.getParameter(gl.MAX_COMBINED_TEXTURE_IMAGE_UNITS) as number;
     this.units = [units - 1, units - 2];
-    this.readsFloats = this.readsBytes && (this.#isWebGL2 || gl.getExtension("OES_texture_float") !== null);
-  }
-
-  /** Whether vertex shaders can read textures at all. */
-  get readsBytes(): boolean {
-    return (this.#gl.getParameter(this.#gl.MAX_VERTEX_TEXTURE_IMAGE_UNITS) as number) > 1;
+    const reads = (gl.getParameter(gl.MAX_VERTEX_TEXTURE_IMAGE_UNITS) as number) > 1;
+    this.readsFloats = reads && ("texStorage2D" in gl || gl.getExtension("OES_texture_float") !== null);
   }
 
   /** Makes room for the bytes of this number of points. */

@@ -8,7 +8,6 @@ import { init } from "../loader.js";
 import type { Place } from "../query/place.js";
 import type { VisibilityOptions } from "../query/view-options.js";
 import { WorkerPointCloud } from "../worker/client.js";
-import { listHiddenToo } from "../worker/listing.js";
 import type { ReadPositions } from "./attribute.js";
 
 /** Both classes give the same answers. A `WorkerPointCloud` gives them as promises. */
@@ -17,20 +16,16 @@ export type Seen = Visibility | VisibilityMap;
 
 /**
  * Makes a cloud in the worker that all filters share, or in this thread. In this thread it is made
- * at once if the wasm is running. If hidden points are dimmed, the worker lists them.
+ * at once if the wasm is running.
  */
 export function prepareCloud(
   { numbers, own }: ReadPositions,
-  options: { inWorker: boolean; dim: boolean; nonFinite: "error" | "skip" },
+  { inWorker, nonFinite }: { inWorker: boolean; nonFinite: "error" | "skip" },
 ): Cloud | Promise<Cloud> {
-  const { inWorker, dim, nonFinite } = options;
   if (inWorker) {
     // The positions are read again if the worker is lost, so the cloud need not keep them.
     const given = own ? numbers : allocating("a copy of the positions", () => numbers.slice());
-    return WorkerPointCloud.create(given, { nonFinite, shared: true, transfer: true }).then((cloud) => {
-      if (dim) listHiddenToo(cloud);
-      return cloud;
-    });
+    return WorkerPointCloud.create(given, { nonFinite, shared: true, transfer: true });
   }
   const build = () => new PointCloud(numbers, { nonFinite });
   return runningInstance() === undefined ? init().then(build) : build();

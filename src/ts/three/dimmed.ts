@@ -1,7 +1,7 @@
 import { type BufferAttribute, BufferGeometry, type Material, Points, type PointsMaterial } from "three";
 
 import { describe, HprError } from "../base/errors.js";
-import type { DrawnPoints } from "./drawn-points.js";
+import type { Order } from "./drawn-points.js";
 import { MappedPoints, type MapTexture } from "./mapped-points.js";
 import { DIMMED, type FilterSettings } from "./options.js";
 
@@ -38,13 +38,13 @@ export class DimmedPoints {
   }
 
   /**
-   * Draws the points that the order lists after the visible ones.
+   * Draws the points that the order lists after the visible ones: `total` in all.
    *
    * @throws HprError `option` in the same case as `follow`.
    */
-  show(drawn: DrawnPoints): void {
+  show({ attribute, visible }: Order, total: number): void {
     this.#mapped.show(undefined);
-    this.#draw(drawn.order ?? null, drawn.visible, drawn.total - drawn.visible);
+    this.#draw(attribute, visible, total - visible);
   }
 
   /** Draws the points that a map hides. Throws as `show`. */

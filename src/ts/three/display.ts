@@ -1,15 +1,16 @@
 import type { Points } from "three";
 
 import { DimmedPoints } from "./dimmed.js";
-import { DrawnPoints } from "./drawn-points.js";
+import { DrawnPoints, type Order } from "./drawn-points.js";
 import { MappedPoints, type MapTexture, MapTextures } from "./mapped-points.js";
 import type { VisibilityMap } from "../cloud/visibility-map.js";
 import type { FilterSettings } from "./options.js";
 
-/** A map, and the way from the points' space to the map's. */
-interface Mapped {
-  texture: MapTexture;
-  matrix: readonly number[] | undefined;
+/** What is drawn for a camera: a map, with the way from the points' space to its space, or an order. Otherwise all points. */
+interface View {
+  order?: Order;
+  isStale: boolean;
+  mapped?: { texture: MapTexture; matrix: readonly number[] | undefined } | undefined;
 }
 
 /** Draws either all points or only the visible ones. The hidden points may be drawn, too, but dimmed. */
@@ -19,7 +20,7 @@ export class Display {
   readonly #dimmed: DimmedPoints | undefined;
   /** Undefined if no maps are asked. */
   readonly #mapped: MappedPoints | undefined;
-  readonly #maps = new Map<unknown, Mapped>();
+  readonly #views = new Map<unknown, View>();
   readonly #textures: MapTextures;
   readonly #ownTextures: MapTextures | undefined;
   #camera: unknown;
@@ -62,32 +63,28 @@ export class Display {
     if (this.#shownMap !== undefined) {
       return this.drawnIndices.length;
     }
-    return this.#enabled ? this.drawn.visible : this.drawn.total;
+    return this.#order?.visible ?? this.drawn.total;
   }
 
   /**
    * Takes up the points that a camera sees, and draws them if the camera is selected. `indices` are
-   * their ascending indices among the points that `drawn` has read. With `isListed`, the indices of
-   * the hidden points follow in memory already.
+   * their ascending indices among the points that `drawn` has read.
    *
    * @returns the number of points that are drawn as visible.
    * @throws HprError `too-large`, `option`.
    */
-  answer(camera: unknown, indices: Uint32Array, isListed = false): number {
-    this.drawn.setVisible(camera, indices, isListed);
-    this.#maps.delete(camera);
-    this.isPending = false;
-    this.#show();
+  answer(camera: unknown, indices: Uint32Array): number {
+    const order = this.drawn.list(indices, this.#views.get(camera)?.order);
+    this.#set(camera, { order, isStale: false });
     return indices.length;
   }
 
   /** Draws what this camera sees. Called in every frame. */
   select(camera: unknown): void {
-    const before = this.drawn.order;
-    const isMapped = this.#maps.has(this.#camera) || this.#maps.has(camera);
+    const isOther = this.#camera !== camera;
     this.#camera = camera;
-    this.drawn.select(camera);
-    if (this.drawn.order !== before || isMapped) {
+    // The points may have moved in the map's space.
+    if (isOther || this.#view?.mapped !== undefined) {
       this.#show();
     }
   }
@@ -99,23 +96,25 @@ export class Display {
 
   /** Draws by a map for this camera until its next answer. `matrix`: from the points' space to the map's. */
   map(camera: unknown, map: VisibilityMap, matrix?: readonly number[]): void {
-    this.#maps.set(camera, { texture: this.#textures.of(camera, map), matrix });
-    this.isPending = false;
-    this.#show();
+    const mapped = { texture: this.#textures.of(camera, map), matrix };
+    this.#set(camera, { isStale: true, ...this.#views.get(camera), mapped });
   }
 
   /** Draws all points for this camera until its next answer. */
   setStale(camera: unknown): void {
-    this.drawn.setStale(camera);
-    this.#maps.delete(camera);
+    Object.assign(this.#views.get(camera) ?? {}, { isStale: true, mapped: undefined });
     this.#show();
   }
 
   /** Forgets the answers for this camera. */
   drop(camera: unknown): void {
-    this.drawn.drop(camera);
-    this.#maps.delete(camera);
+    this.#views.delete(camera);
     this.#textures.drop(camera);
+  }
+
+  /** Whether there was an answer for the selected camera. */
+  get isAnswered(): boolean {
+    return this.#views.get(this.#camera)?.isStale === false;
   }
 
   /** The indices of the points that are drawn, without the dimmed ones. */
@@ -163,7 +162,7 @@ export class Display {
   leave(): void {
     this.isPending = false;
     this.showAll();
-    this.#maps.clear();
+    this.#views.clear();
     this.drawn.release();
   }
 
@@ -174,26 +173,39 @@ export class Display {
     this.#ownTextures?.dispose();
   }
 
-  get #shownMap(): Mapped | undefined {
-    return this.#enabled ? this.#maps.get(this.#camera) : undefined;
+  get #view(): View | undefined {
+    return this.#enabled ? this.#views.get(this.#camera) : undefined;
+  }
+
+  get #shownMap(): View["mapped"] {
+    return this.#view?.mapped;
+  }
+
+  get #order(): Order | undefined {
+    return this.#view?.isStale === false ? this.#view.order : undefined;
+  }
+
+  #set(camera: unknown, view: View): void {
+    this.#views.set(camera, view);
+    this.isPending = false;
+    this.#show();
   }
 
   #show(): void {
     if (!this.#enabled) {
       return;
     }
-    const shown = this.#shownMap;
+    const [shown, order] = [this.#shownMap, this.#order];
     this.#mapped?.show(shown?.texture, shown?.matrix);
     if (shown !== undefined) {
       this.drawn.showAll();
       this.#dimmed?.showBy(shown.texture, shown.matrix);
-      return;
-    }
-    this.drawn.show();
-    if (this.drawn.order === undefined) {
+    } else if (order === undefined) {
+      this.drawn.showAll();
       this.#dimmed?.hide();
     } else {
-      this.#dimmed?.show(this.drawn);
+      this.drawn.show(order);
+      this.#dimmed?.show(order, this.drawn.total);
     }
   }
 }

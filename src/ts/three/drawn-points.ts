@@ -1,7 +1,6 @@
 import { BufferAttribute, type BufferGeometry, DynamicDrawUsage, type Points } from "three";
 
 import { describe, HprError } from "../base/errors.js";
-import { listHidden, orderIn } from "../cloud/hidden.js";
 import type { VisibilityMap } from "../cloud/visibility-map.js";
 import { allocating } from "../base/memory.js";
 import { type PositionAttribute, readPositions, type ReadPositions, requirePositions, versionOf } from "./attribute.js";
@@ -18,11 +17,9 @@ interface Taken {
 }
 
 /** The visible points in the answer for one camera. */
-interface Order {
-  attribute: BufferAttribute;
+export interface Order {
+  readonly attribute: BufferAttribute;
   visible: number;
-  /** Whether all points are drawn instead, because the answer is about another view. */
-  isStale: boolean;
 }
 
 /** The geometries that have a filter. A second filter would take the first one's index for the user's own. */
@@ -36,7 +33,7 @@ const taken = new WeakSet<BufferGeometry>();
  *                draw range ──
  *
  * Hidden points are listed only if they are drawn, too (see `dimmed.ts`). Each camera has an order of
- * its own. The order of the selected camera is drawn.
+ * its own.
  */
 export class DrawnPoints {
   readonly #points: Points;
@@ -44,8 +41,6 @@ export class DrawnPoints {
   #taken: Taken | undefined;
   /** The numbers of the points that were drawn without a filter. Undefined if all were drawn, in their order. */
   #ids: Uint32Array | undefined;
-  readonly #orders = new Map<unknown, Order>();
-  #camera: unknown;
   #total = 0;
   /** The order that the geometry draws. Undefined while it draws all points. */
   #shown: Order | undefined;
@@ -58,15 +53,6 @@ export class DrawnPoints {
   /** How many points are drawn without a filter. */
   get total(): number {
     return this.#total;
-  }
-
-  /** How many points the selected camera sees. All points if there is no answer for it. */
-  get visible(): number {
-    return this.#order?.visible ?? this.#total;
-  }
-
-  get order(): BufferAttribute | undefined {
-    return this.#order?.attribute;
   }
 
   /** The numbers of the points that are drawn. */
@@ -84,29 +70,6 @@ export class DrawnPoints {
     const hidden = map.hides(readPositions(position, this.#ids, place).numbers);
     const numbers = this.#ids ?? Uint32Array.from(hidden, (_, i) => i);
     return numbers.filter((_, i) => hidden[i] === 0);
-  }
-
-  /** The answers for this camera are drawn from now on. */
-  select(camera: unknown): void {
-    this.#camera = camera;
-  }
-
-  /** Until the next answer for this camera, all points are drawn for it. */
-  setStale(camera: unknown): void {
-    const order = this.#orders.get(camera);
-    if (order !== undefined) {
-      order.isStale = true;
-    }
-  }
-
-  /** Forgets the answer for this camera. */
-  drop(camera: unknown): void {
-    this.#orders.delete(camera);
-  }
-
-  get #order(): Order | undefined {
-    const order = this.#orders.get(this.#camera);
-    return order?.isStale === true ? undefined : order;
   }
 
   /** Whether the geometry still draws the points that were read last. Their positions may have changed. */
@@ -162,47 +125,41 @@ export class DrawnPoints {
   }
 
   /**
-   * Notes the points that a camera sees. `indices` are their ascending indices among the points that `take`
-   * returned. With `isListed`, the indices of the hidden points follow in memory.
+   * Writes the points that a camera sees into its order, or into a new one. `indices` are their ascending indices among
+   * the points that `take` returned.
    */
-  setVisible(camera: unknown, indices: Uint32Array, isListed: boolean): void {
-    const known = this.#orders.get(camera) ?? this.#newOrder();
-    this.#orders.set(camera, known);
-    const { attribute } = known;
-    const order = attribute.array as Uint32Array;
-    const all = this.#listsHidden;
-    order.set(all && isListed ? orderIn(indices as Uint32Array<ArrayBuffer>, order.length) : indices);
-    if (all && !isListed) {
-      listHidden(order, indices.length);
+  list(indices: Uint32Array, known: Order | undefined): Order {
+    const order = known ?? this.#newOrder();
+    const { attribute } = order;
+    const numbers = attribute.array as Uint32Array;
+    numbers.set(indices);
+    if (this.#listsHidden) {
+      listHidden(numbers, indices.length);
     }
-    const ids = this.#ids;
+    const [ids, end] = [this.#ids, this.#listsHidden ? this.#total : indices.length];
     if (ids !== undefined) {
-      const end = all ? order.length : indices.length;
-      for (let i = 0; i < end; i++) order[i] = ids[order[i]!]!;
+      for (let i = 0; i < end; i++) numbers[i] = ids[numbers[i]!]!;
     }
-    known.visible = indices.length;
-    known.isStale = false;
+    order.visible = indices.length;
     attribute.clearUpdateRanges();
-    attribute.addUpdateRange(0, all ? this.#total : indices.length);
+    attribute.addUpdateRange(0, end);
     attribute.needsUpdate = true;
-    if (this.#shown === known) {
-      this.#taken?.geometry.setDrawRange(0, known.visible);
+    if (this.#shown === order) {
+      this.#taken?.geometry.setDrawRange(0, order.visible);
     }
+    return order;
   }
 
   #newOrder(): Order {
     const attribute = allocating(`${this.#total} indices`, () => {
       return new BufferAttribute(new Uint32Array(this.#total), 1).setUsage(DynamicDrawUsage);
     });
-    return { attribute, visible: 0, isStale: false };
+    return { attribute, visible: 0 };
   }
 
-  /** Draws the points that the selected camera sees: all points if there is no answer for it. */
-  show(): void {
-    const order = this.#order;
-    if (order === undefined || this.#taken === undefined) {
-      this.showAll();
-    } else if (this.#shown !== order) {
+  /** Draws the points of this order. */
+  show(order: Order): void {
+    if (this.#taken !== undefined && this.#shown !== order) {
       this.#shown = order;
       this.#taken.geometry.setIndex(order.attribute);
       this.#taken.geometry.setDrawRange(0, order.visible);
@@ -233,7 +190,6 @@ export class DrawnPoints {
       taken.delete(this.#taken.geometry);
     }
     this.#taken = this.#ids = undefined;
-    this.#orders.clear();
     this.#total = 0;
   }
 }
@@ -310,5 +266,16 @@ function requireDrawable(index: unknown, range: unknown): void {
     if (typeof value !== "number" || Number.isNaN(value)) {
       throw new HprError("option", `points: drawRange.${name} must be a number, got ${describe(value)}`);
     }
+  }
+}
+
+/** Completes `order` to a list of all indices below its length. Its first `visible` numbers are given, ascending. */
+function listHidden(order: Uint32Array, visible: number): void {
+  let at = visible;
+  let next = 0;
+  for (let i = 0; i <= visible; i++) {
+    const end = i < visible ? order[i]! : order.length;
+    while (next < end) order[at++] = next++;
+    next++;
   }
 }

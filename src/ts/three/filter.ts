@@ -7,7 +7,7 @@ import { type Cloud, prepareCloud, see } from "./cloud.js";
 import { Display } from "./display.js";
 import { requireUnfiltered } from "./drawn-points.js";
 import { requireUniformScale } from "./eye.js";
-import { MapMaterial, type PatchMaterial } from "./map-material.js";
+import { patchMaterial, type PatchMaterial } from "./map-material.js";
 import { type FilterSettings, type HiddenPointFilterOptions, readFilterOptions, requirePoints } from "./options.js";
 
 /** The events of a filter. */
@@ -71,7 +71,7 @@ export class HiddenPointFilter extends CameraFilter<HiddenPointFilterEvents> {
   constructor(points: Points, options?: HiddenPointFilterOptions);
   /** @internal */
   constructor(points: Points, options: HiddenPointFilterOptions | undefined, patch?: PatchMaterial);
-  constructor(points: Points, options?: HiddenPointFilterOptions, patch: PatchMaterial = MapMaterial.of) {
+  constructor(points: Points, options?: HiddenPointFilterOptions, patch: PatchMaterial = patchMaterial) {
     requirePoints(points);
     const settings = readFilterOptions(options, patch);
     requireUnfiltered(points.geometry);
@@ -121,7 +121,7 @@ export class HiddenPointFilter extends CameraFilter<HiddenPointFilterEvents> {
         if (!this.drawing.drawn.isSame) {
           return undefined;
         }
-        const count = this.drawing.answer(camera, answer.indices, this.#settings.inWorker);
+        const count = this.drawing.answer(camera, answer.indices);
         cloud.recycle(answer);
         this.#count = count;
         return { count };

@@ -1,5 +1,6 @@
 import { type DataTexture, type IUniform, type Material, Matrix3, Vector3, Vector4, type WebGLRenderer } from "three";
 
+import { override } from "../base/override.js";
 import { withTest } from "./map-shader.js";
 
 /** The uniforms that a patched material has. They are set for each object, right before it is drawn. */
@@ -28,19 +29,47 @@ export function mapUniforms(): MapUniforms {
   };
 }
 
-/** A material that can leave out hidden points, as `uniforms` say. */
-export interface MapPatch {
-  readonly uniforms: MapUniforms;
+/** A material that can leave out hidden points, as `uniforms` say. Filters that share a material share this. */
+export abstract class MapPatch {
+  readonly uniforms = mapUniforms();
+  /** How many draw with it. */
+  users = 0;
   /** Whether its shader was patched. Undefined until it is compiled. */
-  readonly isPatched: boolean | undefined;
+  abstract readonly isPatched: boolean | undefined;
+  protected readonly material: Material;
+  /** Makes the material what it was before. */
+  protected restore: (() => void) | undefined;
+
+  constructor(material: Material) {
+    this.material = material;
+  }
+
   /** Patches the material again if somebody else has patched it. Called in every frame. */
-  follow(): void;
+  abstract follow(): void;
+
   /** One user less. With the last one, the material is as it was before. */
-  leave(): void;
+  leave(): void {
+    this.users -= 1;
+    if (this.users === 0) {
+      this.restore?.();
+      this.material.needsUpdate = true;
+    }
+  }
 }
 
 /** Patches a material for one more user. */
 export type PatchMaterial = (material: Material) => MapPatch;
+
+/** Patches each material once. */
+export function patching(Patch: new (material: Material) => MapPatch): PatchMaterial {
+  const known = new WeakMap<Material, MapPatch>();
+  return (material) => {
+    const patch = known.get(material) ?? new Patch(material);
+    known.set(material, patch);
+    patch.users += 1;
+    return patch;
+  };
+}
 
 type Shader = Parameters<Material["onBeforeCompile"]>[0];
 type Patched = Material & { uniforms?: Record<string, IUniform> };
@@ -56,85 +85,36 @@ void main() {
 }
 `;
 
-/** A material whose vertex shader can leave out hidden points. Filters that share a material share this. */
-export class MapMaterial implements MapPatch {
-  readonly uniforms = mapUniforms();
+class MapMaterial extends MapPatch {
   isPatched: boolean | undefined;
-  readonly #material: Patched;
-  #users = 0;
-  #compile!: Material["onBeforeCompile"];
-  #key!: Material["customProgramCacheKey"];
-  #restore: (() => void) | undefined;
-
-  static readonly #known = new WeakMap<Material, MapMaterial>();
-
-  private constructor(material: Material) {
-    this.#material = material;
-  }
-
-  /** The patch of this material, for one more user. */
-  static readonly of = (material: Material): MapMaterial => {
-    const known = MapMaterial.#known.get(material) ?? new MapMaterial(material);
-    MapMaterial.#known.set(material, known);
-    known.#users += 1;
-    return known;
-  };
+  #compile: Material["onBeforeCompile"] | undefined;
+  #key: Material["customProgramCacheKey"] | undefined;
 
   follow(): void {
-    if (this.#material.onBeforeCompile !== this.#compile || this.#material.customProgramCacheKey !== this.#key) {
-      this.#patch();
-    }
-  }
-
-  leave(): void {
-    this.#users -= 1;
-    if (this.#users > 0) {
+    const { material } = this;
+    if (material.onBeforeCompile === this.#compile && material.customProgramCacheKey === this.#key) {
       return;
     }
-    MapMaterial.#known.delete(this.#material);
-    this.#restore?.();
-    this.#material.needsUpdate = true;
-  }
-
-  #patch(): void {
-    const material = this.#material;
-    const owns = (name: string) => Object.prototype.hasOwnProperty.call(material, name);
-    const [hadCompile, hadKey] = [owns("onBeforeCompile"), owns("customProgramCacheKey")];
     // oxlint-disable-next-line typescript/unbound-method -- called with the material
     const { onBeforeCompile, customProgramCacheKey } = material;
-    const compile = (shader: Shader, renderer: WebGLRenderer) => {
+    this.#compile = (shader, renderer) => {
       onBeforeCompile.call(material, shader, renderer);
-      if (this.#users > 0) this.#change(shader, renderer);
+      if (this.users > 0) this.#change(shader, renderer);
     };
     // By default, the key is the text of `onBeforeCompile`: here, that of the material's own one.
-    const key = () => {
+    this.#key = () => {
       const before = customProgramCacheKey.call(
         Object.create(material, { onBeforeCompile: { value: onBeforeCompile } }),
       );
-      return `${before}${this.#users > 0 ? " hprHidden" : ""}`;
+      return `${before}${this.users > 0 ? " hprHidden" : ""}`;
     };
-    material.onBeforeCompile = this.#compile = compile;
-    material.customProgramCacheKey = this.#key = key;
+    const restore = override(material, { onBeforeCompile: this.#compile, customProgramCacheKey: this.#key });
     material.needsUpdate = true;
-    this.#restore = () => {
-      if (material.onBeforeCompile === compile) {
-        if (hadCompile) {
-          material.onBeforeCompile = onBeforeCompile;
-        } else {
-          delete (material as Partial<Material>).onBeforeCompile;
-        }
-      }
-      if (material.customProgramCacheKey === key) {
-        if (hadKey) {
-          material.customProgramCacheKey = customProgramCacheKey;
-        } else {
-          delete (material as Partial<Material>).customProgramCacheKey;
-        }
-      }
-      for (const name of Object.keys(this.uniforms)) {
-        if (material.uniforms?.[name] === this.uniforms[name as keyof MapUniforms]) {
-          Reflect.deleteProperty(material.uniforms, name);
-        }
+    this.restore = () => {
+      restore();
+      const { uniforms = {} } = material as Patched;
+      for (const [name, own] of Object.entries(this.uniforms)) {
+        if (uniforms[name] === own) Reflect.deleteProperty(uniforms, name);
       }
     };
   }
@@ -151,3 +131,6 @@ export class MapMaterial implements MapPatch {
     this.isPatched = true;
   }
 }
+
+/** Makes the vertex shaders of a material leave out hidden points. */
+export const patchMaterial = patching(MapMaterial);

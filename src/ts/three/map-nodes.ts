@@ -15,7 +15,8 @@ import {
 import type { Node, NodeBuilder } from "three/webgpu";
 
 import { GLSL, WGSL } from "../cloud/visibility-shader.js";
-import { mapUniforms, type MapPatch } from "./map-material.js";
+import { override } from "../base/override.js";
+import { MapPatch, patching } from "./map-material.js";
 
 type Patched = Material & { vertexNode?: Node<"vec4"> | null };
 
@@ -51,52 +52,18 @@ const inWGSL = wgslFn(
  * A material of the WebGPU renderer that can leave out hidden points: its `vertexNode` moves them out of the picture. The
  * renderer makes node materials of other materials, and takes this node over.
  */
-export class MapNodes implements MapPatch {
-  readonly uniforms = mapUniforms();
+class MapNodes extends MapPatch {
   readonly isPatched = true;
-  readonly #material: Patched;
   readonly #nothing = new DataTexture(new Float32Array(256), 256, 1, RedFormat, FloatType);
-  #users = 0;
-  #given: Node<"vec4"> | null | undefined;
   #own: Node<"vec4"> | undefined;
 
-  static readonly #known = new WeakMap<Material, MapNodes>();
-
-  private constructor(material: Material) {
-    this.#material = material;
-  }
-
-  /** The patch of this material, for one more user. */
-  static readonly of = (material: Material): MapNodes => {
-    const known = MapNodes.#known.get(material) ?? new MapNodes(material);
-    MapNodes.#known.set(material, known);
-    known.#users += 1;
-    return known;
-  };
-
   follow(): void {
-    if (this.#own === undefined || this.#material.vertexNode !== this.#own) {
-      this.#given = this.#material.vertexNode;
-      this.#own = this.#made(this.#given ?? (modelViewProjection as unknown as Node<"vec4">));
-      this.#material.vertexNode = this.#own;
-      this.#material.needsUpdate = true;
+    const material: Patched = this.material;
+    if (this.#own === undefined || material.vertexNode !== this.#own) {
+      this.#own = this.#made(material.vertexNode ?? (modelViewProjection as unknown as Node<"vec4">));
+      this.restore = override(material, { vertexNode: this.#own });
+      material.needsUpdate = true;
     }
-  }
-
-  leave(): void {
-    this.#users -= 1;
-    if (this.#users > 0) {
-      return;
-    }
-    MapNodes.#known.delete(this.#material);
-    if (this.#material.vertexNode === this.#own) {
-      if (this.#given === undefined) {
-        delete this.#material.vertexNode;
-      } else {
-        this.#material.vertexNode = this.#given;
-      }
-    }
-    this.#material.needsUpdate = true;
   }
 
   #made(place: Node<"vec4">): Node<"vec4"> {
@@ -120,3 +87,6 @@ export class MapNodes implements MapPatch {
     return select(isLeftOut, vec4(0, 0, 2, 1), place);
   }
 }
+
+/** Makes the nodes of a material leave out hidden points. */
+export const patchNodes = patching(MapNodes);

@@ -12,7 +12,8 @@ import {
 } from "three";
 
 import type { VisibilityMap } from "../cloud/visibility-map.js";
-import { MapMaterial, type MapPatch, type PatchMaterial } from "./map-material.js";
+import { override } from "../base/override.js";
+import { type MapPatch, patchMaterial, type PatchMaterial } from "./map-material.js";
 
 const WIDTH = 256;
 /** Rows for a map of the default number of corners. */
@@ -73,8 +74,6 @@ export class MapTextures {
   }
 }
 
-type Drawn = (renderer: WebGLRenderer, ...others: unknown[]) => void;
-
 /**
  * Points of which the vertex shader leaves out those that a map hides, or those that it does not. The
  * material is patched, and the map's uniforms are set only while these points are drawn, because
@@ -90,7 +89,7 @@ export class MappedPoints {
   #texture: MapTexture | undefined;
   #matrix: readonly number[] = IDENTITY.elements;
   #seen: ReturnType<VisibilityMap["seenIn"]> | undefined;
-  #hooks: { before: Drawn; after: Drawn } | undefined;
+  #hooks: Partial<Points> | undefined;
   #restore: (() => void) | undefined;
 
   /** `mode` -1: only hidden points are drawn. */
@@ -127,7 +126,8 @@ export class MappedPoints {
       this.#material = this.#isRefused ? undefined : this.#patch(material as Material);
     }
     this.#material?.follow();
-    if (this.#points.onBeforeRender !== this.#hooks?.before || this.#points.onAfterRender !== this.#hooks.after) {
+    const [points, hooks] = [this.#points, this.#hooks];
+    if (points.onBeforeRender !== hooks?.onBeforeRender || points.onAfterRender !== hooks.onAfterRender) {
       this.#hook();
     }
   }
@@ -142,43 +142,28 @@ export class MappedPoints {
 
   #hook(): void {
     const points = this.#points;
-    const names = ["onBeforeRender", "onAfterRender", "raycast"] as const;
-    const owned = names.map((name) => Object.getOwnPropertyDescriptor(points, name));
-    const [before, after, raycast] = names.map((name) => points[name].bind(points) as (...args: unknown[]) => void);
-    const hooks = {
-      before: (renderer: WebGLRenderer, ...others: unknown[]) => {
+    const [before, after, raycast] = (["onBeforeRender", "onAfterRender", "raycast"] as const).map(
+      (name) => points[name].bind(points) as (...args: unknown[]) => void,
+    );
+    this.#hooks = {
+      onBeforeRender: (renderer: WebGLRenderer, ...others: unknown[]) => {
         before!(renderer, ...others);
         this.#begin(renderer);
       },
-      after: (renderer: WebGLRenderer, ...others: unknown[]) => {
+      onAfterRender: (renderer: WebGLRenderer, ...others: unknown[]) => {
         this.#end(renderer);
         after!(renderer, ...others);
       },
+      raycast: (raycaster: Raycaster, found: Intersection[]) => {
+        const first = found.length;
+        raycast!(raycaster, found);
+        if (this.map !== undefined) found.push(...found.splice(first).filter(({ index }) => !this.#hides(index!)));
+      },
     };
-    const pick = (raycaster: Raycaster, found: Intersection[]) => {
-      const first = found.length;
-      raycast!(raycaster, found);
-      if (this.map !== undefined) found.push(...found.splice(first).filter(({ index }) => !this.#hides(index!)));
-    };
-    points.onBeforeRender = hooks.before;
-    points.onAfterRender = hooks.after;
-    points.raycast = pick;
-    this.#hooks = hooks;
-    const own: unknown[] = [hooks.before, hooks.after, pick];
-    const restore = this.#restore;
+    const [own, earlier] = [override(points, this.#hooks), this.#restore];
     this.#restore = () => {
-      for (const [i, name] of names.entries()) {
-        const was = owned[i];
-        if (points[name] !== own[i]) {
-          continue;
-        }
-        if (was === undefined) {
-          Reflect.deleteProperty(points, name);
-        } else {
-          Object.defineProperty(points, name, was);
-        }
-      }
-      restore?.();
+      own();
+      earlier?.();
     };
   }
 
@@ -191,7 +176,7 @@ export class MappedPoints {
   }
 
   #begin(renderer: WebGLRenderer): void {
-    if ("isWebGPURenderer" in renderer && this.#patch === MapMaterial.of) {
+    if ("isWebGPURenderer" in renderer && this.#patch === patchMaterial) {
       this.#isRefused = true;
       return;
     }

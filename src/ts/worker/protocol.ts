@@ -30,11 +30,10 @@ export type Request =
   /** Asks many views. The team deals them out to its members, so this is never sent to a worker. */
   | { kind: "survey"; task: SurveyTask }
   /**
-   * `spare` is memory for the answer's indices, if there is some. With `listing`, the indices of
-   * hidden points follow those of the visible ones (see `hidden.ts`). With `sliced`, a view that
+   * `spare` is memory for the answer's indices, if there is some. With `sliced`, a view that
    * goes on from a draft, or takes several looks, is computed in slices, so that it can be given up.
    */
-  | (Query & { spare?: ArrayBuffer | undefined; listing?: boolean; sliced?: boolean });
+  | (Query & { spare?: ArrayBuffer | undefined; sliced?: boolean });
 
 /** The value of a reply, by the kind of its request. */
 export interface Replies extends Answers {

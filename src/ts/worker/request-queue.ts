@@ -3,7 +3,6 @@ import { asError, HprError } from "../base/errors.js";
 import type { Query, QueryKind } from "../query/queries.js";
 import { Spares } from "../cloud/spares.js";
 import { abortError, BY_SIGNAL, whenAborted } from "./abort.js";
-import { isListing } from "./listing.js";
 import { isProgress, READY, type Replies, type Reply, type Request, WITH_INDICES } from "./protocol.js";
 import { Team } from "./team.js";
 import { startError } from "./start-thread.js";
@@ -208,13 +207,12 @@ export class RequestQueue implements GuestEvents {
     this.#running = next;
     this.#team.setBusy(next !== undefined);
     if (next !== undefined) {
-      const { request, owner, signal } = next;
+      const { request, signal } = next;
       this.#team.post(
         request.kind in WITH_INDICES
           ? ({
               ...request,
               spare: this.#spares.take(),
-              listing: isListing(owner),
               sliced: signal !== undefined,
             } as Request)
           : this.#toGive(request),

@@ -1,5 +1,4 @@
 import { CoreCloud } from "../cloud/core-cloud.js";
-import { withHidden } from "../cloud/hidden.js";
 import { initSync } from "../instance/init-sync.js";
 import { requireInstance } from "../instance/instance.js";
 import { importNodeModule } from "../base/node.js";
@@ -78,11 +77,7 @@ function answer(letter: Letter<Request>, post: Post): Replies[Request["kind"]] {
       return cloud.size;
     default: {
       cloud.keepMemory(request.spare);
-      const found = cloud.ask(request);
-      if (request.listing === true && "length" in found) {
-        found.indices = withHidden(found.indices, found.length);
-      }
-      return found;
+      return cloud.ask(request);
     }
   }
 }
