@@ -114,6 +114,29 @@ fn far_from_0_an_origin_keeps_a_map_sharp() {
 }
 
 #[test]
+fn where_a_map_knows_nothing_no_distance_is_hidden() {
+    let points: Vec<[f64; 3]> = (shapes::bumpy(&mut Rng::new(3), 20_000).into_iter())
+        .filter(|p| p[2] > 0.5 || p[0] > 0.8)
+        .collect();
+    let cloud = PointCloud::new(&points).unwrap();
+    let (from, options) = ([0.0, 0.0, 4.0], Options::with_exponent(3.0));
+    let map = cloud.visibility_map(from, &options, &small()).unwrap();
+    let mut rng = Rng::new(4);
+    let mut open = 0;
+    for _ in 0..20_000 {
+        let ahead = rng.direction();
+        let at = |distance: f64| core::array::from_fn(|axis| from[axis] + distance * ahead[axis]);
+        if !map.hides(at(1e14)) {
+            open += 1;
+            for distance in [1e29, 1e31, 1e35, 1e38] {
+                assert!(!map.hides(at(distance)), "{ahead:?}, {distance}");
+            }
+        }
+    }
+    assert!(open > 1000 && open < 20_000, "{open}");
+}
+
+#[test]
 fn a_map_towards_some_directions_is_of_these() {
     let points = shapes::room(&mut Rng::new(9), 30_000);
     let cloud = PointCloud::new(&points).unwrap();

@@ -23,10 +23,10 @@ use crate::base::real::{larger, smaller, square_root};
 use crate::flip::inversion::Flip;
 use crate::hull::{Memory, Reaches, Window, direction};
 
-/// Stands for a direction in which nothing is hidden. No length in single precision is larger.
+/// Stands for a direction in which nothing is hidden.
 pub(super) const NOWHERE: f32 = f32::MAX;
-/// The largest other distance.
-const MOST: f64 = 1e30;
+/// The largest other distance. A test takes a cell with a larger one as unknown.
+pub(super) const MOST: f64 = 1e30;
 /// The least distance in a map. Single precision may flush a smaller one to 0.
 const LEAST: f64 = 1e-30;
 /// The share of the least reach of a cell that its interpolation may lose.

@@ -13,6 +13,7 @@
 
 use alloc::vec::Vec;
 
+use crate::answers::visibility_map::depths::MOST;
 use crate::base::allocation::{OutOfMemory, filled};
 use crate::base::real::square_root;
 use crate::hull::Reaches;
@@ -160,6 +161,8 @@ impl VisibilityMap {
         // The root in double precision, rounded once more, is the correctly rounded one.
         let root = square_root(f64::from(x * x + y * y + 1.0)) as f32;
         let length = z.abs() * root;
-        Some(length * (1.0 - 8e-6) - self.numbers[3] > limit)
+        // A cell with an unknown corner hides nothing, however far away.
+        let is_known = most < MOST as f32;
+        Some(is_known && length * (1.0 - 8e-6) - self.numbers[3] > limit)
     }
 }

@@ -20,7 +20,7 @@ use crate::view::resolved::normalized;
 const TIMES: usize = 6;
 /// Where the radius tells how many are needed, a pool has one in so many points of the cloud, but at least `SMALL`: to look
 /// through more would cost more than the hull.
-const PART: usize = 4;
+const PART: usize = 5;
 const SMALL: usize = 4 * FEW;
 /// One in so many points of the pool shows where the cloud is seen.
 const STEP: usize = 16;
@@ -28,8 +28,8 @@ const STEP: usize = 16;
 const MOST_EMPTY: f64 = 8.0;
 /// A map has at least so many points, if the pool has as many; of a large cloud one in `ENOUGH_OF`, up to `ENOUGH`.
 pub(super) const FEW: usize = 8192;
-const ENOUGH: usize = 12_288;
-const ENOUGH_OF: usize = 36;
+const ENOUGH: usize = 10_500;
+const ENOUGH_OF: usize = 42;
 /// How many points there are for each that [`Need::ForRadius`] derives.
 const FOR_RADIUS: f64 = 1.2;
 /// How much wider than the given cone the points are, as a share of the angle.
@@ -120,8 +120,8 @@ impl Pool {
             };
             let count = smaller(count, map.points as f64);
             let grid = Grid::new(&sample.extents, count * sample.empty);
-            let mut nearest = filled(grid.cells, (f32::INFINITY, 0))?;
-            for (number, point) in self.points.iter().enumerate() {
+            let mut nearest = filled(grid.cells, (f32::INFINITY, 0u32))?;
+            for (number, point) in (0..).zip(self.points.iter()) {
                 if let Some((side, at, squared)) = seen(point) {
                     let nearest = &mut nearest[grid.cell(side, at)];
                     if squared < nearest.0 {
@@ -131,7 +131,7 @@ impl Pool {
             }
             for &(squared, number) in &nearest {
                 if squared < f32::INFINITY {
-                    is_chosen[number] = true;
+                    is_chosen[number as usize] = true;
                 }
             }
         } else {

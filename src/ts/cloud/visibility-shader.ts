@@ -30,7 +30,7 @@ bool hidden(highp vec3 position) {
   highp float least = min(min(d.x, d.y), min(d.z, d.w));
   highp float limit = sides.x * (1.0 - t.y) + sides.y * t.y + (most - least) * (2.0 * border) + most * 4e-6;
   highp float range = abs(v.z) * sqrt(place.x * place.x + place.y * place.y + 1.0);
-  return range * (1.0 - 8e-6) - hprMargins.w > limit;
+  return most < 1e30 && range * (1.0 - 8e-6) - hprMargins.w > limit;
 }
 `;
 
@@ -60,6 +60,6 @@ fn hidden(position: vec3f) -> bool {
   let least = min(min(d.x, d.y), min(d.z, d.w));
   let limit = sides.x * (1.0 - t.y) + sides.y * t.y + (most - least) * (2.0 * border) + most * 4e-6;
   let range = abs(v.z) * sqrt(place.x * place.x + place.y * place.y + 1.0);
-  return range * (1.0 - 8e-6) - hprMargins.w > limit;
+  return most < 1e30 && range * (1.0 - 8e-6) - hprMargins.w > limit;
 }
 `;
