@@ -84,3 +84,18 @@ test("a part that cannot be downloaded later is told without the browser's words
     .poll(() => page.locator("#message p").textContent())
     .toBe("The lesson could not be shown: a part of this page could not be downloaded; reload the page to try again.");
 });
+
+test("Unfreeze looks at the present cloud, and not at the place where another one was frozen", async () => {
+  const page = await openReady("?sample=bunny", {}, withoutTools);
+  const verb = (name: string) => page.getByRole("button", { name }).click();
+  await verb("Freeze and walk around");
+  await upToDate(page);
+  await page.locator('#thumbnails [data-sample="room"]').click();
+  await page.locator('#status[data-total="300000"]').waitFor({ state: "attached" });
+  const { viewpoint } = await upToDate(page);
+  await page.locator("#view").press("v");
+  await verb("Unfreeze");
+  await expect.poll(async () => (await upToDate(page)).viewpoint).toEqual(viewpoint);
+  const address = await addressWritten(page);
+  expect([address.get("freeze"), address.get("view"), address.get("target")]).toEqual([null, null, null]);
+});

@@ -13,7 +13,6 @@ import { unfoldUnusual } from "./sections.ts";
 import { bindSettings } from "./settings.ts";
 import { bindTheme } from "./theme.ts";
 import { bindVerbs } from "./verbs.ts";
-import { bindFreeze } from "./viewpoint.ts";
 
 /** All controls of the panel: they change the settings, and show them. */
 export class Panel {
@@ -35,7 +34,6 @@ export class Panel {
     this.#color = bindColor(store);
     viewer.onLegend = this.#color.explain;
     const moves = new Moves(byId("view", HTMLCanvasElement), viewer, store, () => this.usual);
-    bindFreeze(store, moves);
     bindVerbs(viewer, store, moves, turning);
     this.#pointSize = new PointSize(store);
     bindTheme(store, (theme) => {

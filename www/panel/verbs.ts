@@ -13,7 +13,7 @@ const WALK = 5;
 /** In radians. */
 const ASIDE = 0.9;
 
-/** The verbs over the picture: freeze and walk around, and where the frozen eye goes next. */
+/** The verbs over the picture: freeze and walk around, and where the frozen eye goes next. The panel has the same. */
 export function bindVerbs(viewer: Viewer, store: Store, moves: Moves, turning: Turning): void {
   const compare = byId("compare");
   compare.addEventListener("click", () => {
@@ -23,15 +23,15 @@ export function bindVerbs(viewer: Viewer, store: Store, moves: Moves, turning: T
     byId("file").click();
   });
   const freeze = byId("walk");
-  const here = byId("eye-here");
+  const [here, tooHere] = [byId("eye-here"), byId("eye-here-too")];
   /** Where the camera looked before. */
   let before: Vector3 | null = null;
   freeze.addEventListener("click", () => {
     const { freeze: eye } = store.current;
     if (!viewer.cloud) return;
     if (eye) {
-      store.change({ freeze: null, hidden: "off" });
       const target = before ?? viewer.navigation.target.clone();
+      store.change({ freeze: null, hidden: "off" });
       viewer.navigation.flyTo({ at: inLocal(viewer.cloud, eye), target });
       return;
     }
@@ -44,16 +44,22 @@ export function bindVerbs(viewer: Viewer, store: Store, moves: Moves, turning: T
       else turning.begin(WALK);
     });
   });
-  for (const button of [here, byId("eye-here-too")]) {
+  for (const button of [here, tooHere]) {
     button.addEventListener("click", () => {
       store.change({ freeze: viewer.viewpoint });
     });
   }
+  const stay = byId("freeze");
+  stay.addEventListener("click", () => {
+    moves.freeze(!moves.frozen);
+  });
   store.follow(({ freeze: frozen, compare: divided }) => {
     compare.setAttribute("aria-pressed", String(divided !== null));
-    freeze.setAttribute("aria-pressed", String(frozen !== null));
+    for (const button of [freeze, stay]) button.setAttribute("aria-pressed", String(frozen !== null));
     freeze.textContent = frozen ? "Unfreeze" : "Freeze and walk around";
-    here.hidden = frozen === null;
-    byId("eye-here-too").hidden = frozen === null;
+    stay.textContent = `${frozen ? "Unfreeze" : "Freeze"} viewpoint`;
+    here.hidden = tooHere.hidden = frozen === null;
+    // Keys may freeze another cloud later.
+    if (!frozen) before = null;
   });
 }
