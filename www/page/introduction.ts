@@ -14,6 +14,7 @@ export class Introduction {
   readonly #viewer: Viewer;
   readonly #store: Store;
   readonly #turning: Turning;
+  readonly #introduces: boolean;
   #going: boolean;
 
   /** `introduces`: the address asks for nothing. */
@@ -21,7 +22,7 @@ export class Introduction {
     this.#viewer = viewer;
     this.#store = store;
     this.#turning = turning;
-    this.#going = introduces;
+    this.#going = this.#introduces = introduces;
     if (!introduces) return;
     store.change({ compare: isCalm() ? MIDDLE : 1 });
     for (const touch of ["pointerdown", "wheel", "keydown", "click"]) {
@@ -37,8 +38,8 @@ export class Introduction {
   /** Begins when the first answer is drawn, and the line is there. */
   async begin(turns: boolean): Promise<void> {
     while (!this.#viewer.isFinal) await nextFrame();
-    if (turns) this.#turning.begin();
-    if (!this.#going || isCalm()) return;
-    await sweep(this.#store, MIDDLE, () => this.going);
+    if (turns && (this.#going || !this.#introduces)) this.#turning.begin();
+    // After an early touch the line is in the middle at once: where it stood before, all points are shown.
+    if (this.#introduces && this.#store.current.compare === 1) await sweep(this.#store, MIDDLE, () => this.going);
   }
 }
