@@ -9,7 +9,6 @@ import type { MapTextures } from "../three/mapped-points.js";
 import type { GatheredNode } from "./gathered.js";
 import type { NodesSettings } from "./options.js";
 import { placeIn } from "./place.js";
-import { straysIn } from "./strays.js";
 
 const IDENTITY = new Matrix4();
 
@@ -70,9 +69,8 @@ export class CloudNode implements GatheredNode {
     try {
       const { numbers } = this.display.drawn.take(this.#matrix());
       this.#read.copy(this.#place);
-      const { count, first } = straysIn(numbers);
-      if (count > 0 && this.#settings.nonFinite === "error") {
-        throw nonFinite(count, first);
+      if (this.#settings.nonFinite === "error") {
+        requireFinite(numbers);
       }
       return numbers;
     } catch (error) {
@@ -110,4 +108,10 @@ export class CloudNode implements GatheredNode {
     const { index, drawRange } = (isFree ? geometry : undefined) ?? {};
     return [geometry, position, version, isFree, index, index?.version, drawRange?.start, drawRange?.count];
   }
+}
+
+function requireFinite(numbers: Float32Array | Float64Array): void {
+  const strays = new Set<number>();
+  numbers.forEach((x, i) => Number.isFinite(x) || strays.add(Math.floor(i / 3)));
+  for (const first of strays) throw nonFinite(strays.size, first);
 }

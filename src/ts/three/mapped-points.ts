@@ -20,52 +20,38 @@ const WIDTH = 256;
 const ROWS = 514;
 const IDENTITY = new Matrix4();
 
-/** The texture of a map. Filters of nodes share one. */
-export class MapTexture {
+/** A map and its texture. */
+export interface MapTexture {
   readonly map: VisibilityMap;
-  texture: DataTexture;
-
-  constructor(map: VisibilityMap, before?: MapTexture) {
-    this.map = map;
-    const { data } = map;
-    const kept = before?.texture;
-    const image = kept?.image as { data: Float32Array } | undefined;
-    if (kept !== undefined && image!.data.length >= data.length) {
-      image!.data.set(data);
-      this.texture = kept;
-    } else {
-      kept?.dispose();
-      const numbers = new Float32Array(Math.max(ROWS * WIDTH, data.length));
-      numbers.set(data);
-      this.texture = new DataTexture(numbers, WIDTH, numbers.length / WIDTH, RedFormat, FloatType);
-    }
-    this.texture.needsUpdate = true;
-  }
-
-  /** Whether it hides nothing. */
-  get isEmpty(): boolean {
-    return this.map.data.length === 0;
-  }
-
-  dispose(): void {
-    this.texture.dispose();
-  }
+  readonly texture: DataTexture;
 }
 
-/** The textures of the last map for each camera. */
+/** The textures of the last map for each camera. Objects that draw by the same map share its texture. */
 export class MapTextures {
   readonly #textures = new Map<unknown, MapTexture>();
 
-  /** The texture of this map. Objects that draw by the same map share it. */
+  /** The texture of this map. */
   of(camera: unknown, map: VisibilityMap): MapTexture {
     const last = this.#textures.get(camera);
-    const texture = last?.map === map ? last : new MapTexture(map, last);
-    this.#textures.set(camera, texture);
-    return texture;
+    if (last?.map === map) {
+      return last;
+    }
+    const { length } = map.data;
+    let texture = last?.texture;
+    if (texture === undefined || texture.image.data!.length < length) {
+      texture?.dispose();
+      const numbers = new Float32Array(Math.max(ROWS * WIDTH, length));
+      texture = new DataTexture(numbers, WIDTH, numbers.length / WIDTH, RedFormat, FloatType);
+    }
+    (texture.image.data as Float32Array).set(map.data);
+    texture.needsUpdate = true;
+    const made = { map, texture };
+    this.#textures.set(camera, made);
+    return made;
   }
 
   drop(camera: unknown): void {
-    this.#textures.get(camera)?.dispose();
+    this.#textures.get(camera)?.texture.dispose();
     this.#textures.delete(camera);
   }
 
@@ -181,7 +167,7 @@ export class MappedPoints {
       return;
     }
     const [material, texture, seen] = [this.#material, this.#texture, this.#seen];
-    if (material?.isPatched !== true || texture === undefined || seen === undefined || texture.isEmpty) {
+    if (material?.isPatched !== true || texture === undefined || seen === undefined || texture.map.data.length === 0) {
       return;
     }
     const { hprMode, hprDepths, hprMargins, hprEye, hprTurn, hprRow } = material.uniforms;
