@@ -14,6 +14,8 @@ const OPTIONS = [
   "--reorder-functions-by-name",
   // Engines ignore the alignment of loads and stores. Where it is always the same, gzip saves 0.6 kB.
   "--dealign",
+  "--strip-producers",
+  "--strip-target-features",
 ];
 
 /** Shrinks a module as wasm-bindgen made it, in place. It must have names, and loses them. */

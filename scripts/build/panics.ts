@@ -35,8 +35,8 @@ export function withoutMessages(module: Uint8Array): Uint8Array {
 }
 
 /**
- * Clears the places in the code that panics name: `core::panic::Location`, which is the address and the length of a
- * file's name, a line and a column, and the names. wasm-opt leaves out what is zero.
+ * Clears messages, and the places in the code that panics name: `core::panic::Location`, which is the address and the
+ * length of a file's name, a line and a column, and the names. wasm-opt leaves out what is zero.
  */
 function withoutPlaces(section: Uint8Array): Uint8Array {
   const cleared = Uint8Array.from(section);
@@ -64,8 +64,17 @@ function withoutPlaces(section: Uint8Array): Uint8Array {
   }
   if (places.length === 0) throw new Error("The module has no places in the code.");
   for (const place of places) place.fill(0);
+  for (const { bytes } of segments) {
+    for (const { 0: message, index } of Buffer.from(bytes).toString("latin1").matchAll(MESSAGE)) {
+      bytes.fill(0, index, index + message.length);
+    }
+  }
   return cleared;
 }
+
+/** Parts of messages of the standard library, and the digits by which it would write numbers. */
+const MESSAGE =
+  /(?:\d\d){100}|attempt to [a-z ]+|copy_from_slice: [^\0]+|\) does not match the [^\0]+|" out of range for [a-z ]+|range (?:start|end) index |slice index starts at |index out of bounds[a-z: ]*|(?:RefCell )?already (?:mutably )?borrowed|cannot access a Thread Local [^\0]+|one-time initialization [a-z ]+|<?internal error: entered unreachable code[: a-zA-Z]*|chunk size must be non-zero|mid > len|called `Option::unwrap\w*\(\)` on a `None` value|closure invoked recursively or after being dropped|assertion (?:`left|failed: [\w!=<>+ ]+)|a new vertex is on the (?:outer|lower) boundary/g;
 
 const PLACE = 16;
 const FILE_NAME = /^[\w./-]+\.rs$/;
