@@ -218,6 +218,11 @@ class HiddenPointCloud extends Base implements Own {
           this.setAttribute("hidden-points", hidden);
         }
         this.toggleAttribute("frozen", freeze !== null);
+        const { showing } = this.#showing!;
+        // The same answer is told in other words.
+        if (showing.cloud && this.hasAttribute("announce")) {
+          this.#frame.announce(showing.sentence(showing.viewer.scene.answer));
+        }
       },
     };
   }
