@@ -18,7 +18,7 @@ use glam::DVec3;
 /// one of them is between 0 and 1. L is [`Flip::reach`].
 ///
 /// [`Flip::reach`]: crate::flip::inversion::Flip::reach
-#[derive(Clone, Copy, Default)]
+#[derive(Clone, Copy)]
 pub(super) struct Plane {
     pub m: DVec3,
     /// Bound of the error of `m·q − 1`; infinite where only exact signs count.

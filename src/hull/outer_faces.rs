@@ -81,7 +81,7 @@ impl Memory {
 }
 
 /// Passes the edges that the face `id` of `surface` has in common with its outer `faces`.
-pub(super) fn border_of<T: Copy + Default>(
+pub(super) fn border_of<T: Copy>(
     surface: &Surface<T>,
     id: FaceId,
     faces: &dyn OuterFaces,

@@ -120,7 +120,7 @@ impl<T> Default for Surface<T> {
     }
 }
 
-impl<T: Copy + Default> Surface<T> {
+impl<T: Copy> Surface<T> {
     /// Becomes the tetrahedron of `apex` and the face (a, b, c), which is
     /// counter-clockwise seen from outside.
     pub(crate) fn start(
@@ -269,21 +269,14 @@ impl<T: Copy + Default> Surface<T> {
     ) -> Result<(), OutOfMemory> {
         let count = self.horizon.len();
         debug_assert!(count >= 3);
+        let used = self.cavity.len() + self.free.len();
+        reserve(&mut self.faces, count.saturating_sub(used))?;
+        let mut end = self.faces.len() as FaceId;
         while self.cavity.len() < count {
-            let slot = match self.free.pop() {
-                Some(slot) => slot,
-                None => {
-                    let slot = self.faces.len();
-                    reserve(&mut self.faces, 1)?;
-                    // A face of the fan replaces it. It is made in its place, since a copy takes longer.
-                    self.faces.resize_with(slot + 1, || Face {
-                        vertices: [NONE; 3],
-                        twins: [HalfEdge(0); 3],
-                        data: T::default(),
-                    });
-                    slot as FaceId
-                }
-            };
+            let slot = self.free.pop().unwrap_or_else(|| {
+                end += 1;
+                end - 1
+            });
             push(&mut self.cavity, slot)?;
         }
         // Some vertices vanished with the cavity, so there are fewer faces than before.
@@ -306,11 +299,16 @@ impl<T: Copy + Default> Surface<T> {
             across.twins[outside.edge()] = HalfEdge::new(slot, 0);
             let head = across.vertices[outside.edge()];
             let head_spoke = spoke(head);
-            self.faces[slot as usize] = Face {
+            let face = Face {
                 vertices: [tail, head, apex],
                 twins: [outside, HalfEdge::new(next, 2), HalfEdge::new(previous, 1)],
                 data: data(tail_spoke, head_spoke),
             };
+            // New slots follow one another.
+            match self.faces.get_mut(slot as usize) {
+                Some(dead) => *dead = face,
+                None => self.faces.push(face),
+            }
             (previous, slot, tail, tail_spoke) = (slot, next, head, head_spoke);
         }
         self.cavity.truncate(count);

@@ -1,8 +1,7 @@
 //! What a lens does to the image of a pinhole: COLMAP's models.
 
 use crate::base::error::Error;
-use crate::base::real::sine_cosine;
-use crate::base::real::square_root;
+use crate::base::real::{sine_cosine, square_root};
 
 /// COLMAP's models of a camera, in the order of its numbers for them. Each lists the coefficients of
 /// its distortion in COLMAP's order.

@@ -4,8 +4,7 @@ use core::f64::consts::{PI, TAU};
 use glam::DVec3;
 
 use crate::base::error::{Error, in_range};
-use crate::base::real::sine_cosine;
-use crate::base::real::square_root;
+use crate::base::real::{sine_cosine, square_root};
 use crate::view::resolved::normalized;
 
 /// The largest width and height.
