@@ -16,7 +16,12 @@ export const E57 = "formats/e57/e57.wasm";
 export async function buildE57(): Promise<void> {
   const work = {
     name: "e57",
-    inputs: ["Cargo.lock", "src/e57", "scripts/build/e57.ts", "scripts/build/optimize.ts", "package-lock.json"],
+    inputs: [
+      "Cargo.lock",
+      "src/e57",
+      ...["e57", "optimize", "panics", "wasm"].map((step) => `scripts/build/${step}.ts`),
+      "package-lock.json",
+    ],
     outputs: [`src/ts/${E57}`],
   };
   const result = await unlessUnchanged(work, async () => {

@@ -17,7 +17,7 @@
 //! Where M is much larger than m, S is larger than m, and nothing is left. But ρ ≥ m·(1 − bulge) as
 //! well: there, all four corners take the distance of m.
 
-use crate::answers::visibility_map::hides::VisibilityMap;
+use crate::answers::visibility_map::hides::{MOST, VisibilityMap};
 use crate::base::allocation::{OutOfMemory, filled};
 use crate::base::real::{larger, smaller, square_root};
 use crate::flip::inversion::Flip;
@@ -25,8 +25,6 @@ use crate::hull::{Memory, Reaches, Window, direction};
 
 /// Stands for a direction in which nothing is hidden.
 pub(super) const NOWHERE: f32 = f32::MAX;
-/// The largest other distance. A test takes a cell with a larger one as unknown.
-pub(super) const MOST: f64 = 1e30;
 /// The least distance in a map. Single precision may flush a smaller one to 0.
 const LEAST: f64 = 1e-30;
 /// The share of the least reach of a cell that its interpolation may lose.

@@ -13,7 +13,6 @@
 
 use alloc::vec::Vec;
 
-use crate::answers::visibility_map::depths::MOST;
 use crate::base::allocation::{OutOfMemory, filled};
 use crate::base::real::square_root;
 use crate::hull::Reaches;
@@ -23,6 +22,9 @@ const HEADER: usize = 48;
 /// The texture's width. The data fill whole rows.
 const ROW: usize = 256;
 const UNIT: f64 = f32::EPSILON as f64;
+/// The largest distance in a map, where points can be hidden. A test takes a cell with a larger one as
+/// unknown.
+pub(super) const MOST: f64 = 1e30;
 
 /// Which points are certainly hidden from a viewpoint. `docs/API.md` describes the data and
 /// the shader.
