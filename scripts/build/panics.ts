@@ -72,7 +72,7 @@ function withoutPlaces(section: Uint8Array): Uint8Array {
   return cleared;
 }
 
-/** Parts of messages of the standard library. The digits stay: the reader of E57 writes numbers. */
+/** Parts of messages of the standard library and of the hull. The digits stay: the reader of E57 writes numbers. */
 const MESSAGE =
   /attempt to [a-z ]+|copy_from_slice: [^\0]+|\) does not match the [^\0]+|" out of range for [a-z ]+|range (?:start|end) index |slice index starts at |index out of bounds[a-z: ]*|(?:RefCell )?already (?:mutably )?borrowed|cannot access a Thread Local [^\0]+|one-time initialization [a-z ]+|<?internal error: entered unreachable code[: a-zA-Z]*|chunk size must be non-zero|mid > len|called `Option::unwrap\w*\(\)` on a `None` value|closure invoked recursively or after being dropped|assertion (?:`left|failed: [\w!=<>+ ]+)|a new vertex is on the (?:outer|lower) boundary/g;
 

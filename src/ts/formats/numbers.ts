@@ -1,16 +1,10 @@
+import type { NumberArray } from "../base/typed-arrays.js";
+
 /** The types of numbers in files. */
 export type NumberType = `${"int" | "uint"}${8 | 16 | 32 | 64}` | `float${32 | 64}`;
 
 /** Numbers of one type. They have as many bytes as in the file. */
-export type Values =
-  | Int8Array
-  | Uint8Array
-  | Int16Array
-  | Uint16Array
-  | Int32Array
-  | Uint32Array
-  | Float32Array
-  | Float64Array;
+export type Values = Exclude<NumberArray, Uint8ClampedArray>;
 
 /** The array for each type of numbers in a file. For the longest integers it does not keep all digits. */
 const ARRAYS = {

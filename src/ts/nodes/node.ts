@@ -113,5 +113,6 @@ export class CloudNode implements GatheredNode {
 function requireFinite(numbers: Float32Array | Float64Array): void {
   const strays = new Set<number>();
   numbers.forEach((x, i) => Number.isFinite(x) || strays.add(Math.floor(i / 3)));
-  for (const first of strays) throw nonFinite(strays.size, first);
+  const [first] = strays;
+  if (first !== undefined) throw nonFinite(strays.size, first);
 }
