@@ -11,6 +11,7 @@ use glam::DVec3;
 use crate::base::allocation::{OutOfMemory, filled, with_capacity};
 use crate::base::real::{floor, larger, smaller, square_root};
 use crate::hull::depth::{Window, place, turned};
+use crate::hull::dual_plane::Plane;
 use crate::hull::memory::Memory;
 use crate::hull::topology::{FaceId, Vertex};
 
@@ -25,14 +26,14 @@ const HEIGHT_ERROR: f64 = 64.0 * f64::EPSILON;
 pub(crate) struct Reaches {
     pub windows: [Window; 6],
     pub cells_per_unit: f64,
-    /// For each corner the outer face that it is certainly inside, or `NO_FACE`.
+    /// For each corner an upper bound of w: K ends at 1/w times (x, y, 1) or beyond. It is infinite where none is known.
+    pub heights: Vec<f64>,
+    /// The outer face that a corner of known height is certainly inside.
     pub faces: Vec<FaceId>,
 }
 
 /// From here on, the window of a side of the cube reaches to the side's edge.
 const NEAR_EDGE: f64 = 0.95;
-
-pub(crate) const NO_FACE: FaceId = FaceId::MAX;
 
 /// Three corners of a face on a side of the cube.
 type Places = [[f64; 2]; 3];
@@ -63,46 +64,30 @@ impl Memory {
         let mut reaches = Reaches {
             windows,
             cells_per_unit,
-            faces: filled(corners, NO_FACE)?,
+            heights: filled(corners, f64::INFINITY)?,
+            faces: filled(corners, 0)?,
         };
-        self.each_face(&seen, &mut |side, places, id| {
-            reaches.fill(side, places, id);
-        });
+        self.fill(&mut reaches, &seen);
         Ok(Some(reaches))
     }
 
     /// The corners of a face.
-    pub(crate) fn corners(&self, id: FaceId) -> Option<[Vertex; 3]> {
-        (id != NO_FACE).then(|| self.hull.surface.face(id).vertices)
+    pub(crate) fn corners(&self, id: FaceId) -> [Vertex; 3] {
+        self.hull.surface.face(id).vertices
     }
 
-    /// An upper bound of w along a direction inside this face: K ends at 1/w times the direction or beyond. Its coordinates
-    /// are at most 1. Infinite where none is known.
-    #[inline]
-    pub(crate) fn height(&self, id: FaceId, direction: DVec3) -> f64 {
-        if id == NO_FACE {
-            return f64::INFINITY;
-        }
-        let plane = &self.hull.surface.face(id).data;
-        let height = plane.m.dot(direction);
-        if height <= 0.0 {
-            return f64::INFINITY;
-        }
-        let m = plane.m.abs();
-        height * (1.0 + 2.0 * plane.error) + (m.x + m.y + m.z) * HEIGHT_ERROR
-    }
-
-    /// Passes each outer face on each side of the cube that it is on. `seen`: the side and the place of each vertex.
+    /// Writes each outer face, on each side of the cube that it is on. `seen`: the side and the place of each vertex.
     #[inline(never)]
-    fn each_face(&self, seen: &[(usize, [f64; 2])], pass: &mut dyn FnMut(usize, Places, FaceId)) {
+    fn fill(&self, reaches: &mut Reaches, seen: &[(usize, [f64; 2])]) {
         let hull = &self.hull;
         for (id, face) in hull.surface.alive() {
-            let [(a, p), (b, q), (c, r)] = face.vertices.map(|vertex| seen[vertex as usize]);
             if face.data.is_exact_only() {
                 continue;
             }
+            let [a, b, c] = face.vertices;
+            let [(a, p), (b, q), (c, r)] = [seen[a as usize], seen[b as usize], seen[c as usize]];
             if a == b && a == c {
-                pass(a, [p, q, r], id);
+                reaches.fill(a, [p, q, r], id, &face.data);
                 continue;
             }
             let corners = face.vertices.map(|vertex| hull.vertices.at(vertex));
@@ -113,7 +98,7 @@ impl Memory {
                 // A face that reaches behind a side is left out there.
                 let ahead = corners.map(|q| place_on(side, q));
                 if let [Some(a), Some(b), Some(c)] = ahead {
-                    pass(side, [a, b, c], id);
+                    reaches.fill(side, [a, b, c], id, &face.data);
                 }
             }
         }
@@ -197,9 +182,9 @@ fn grid(sides: &[Side; 6], count: usize) -> Option<([Window; 6], f64)> {
 }
 
 impl Reaches {
-    /// Writes the face at each corner that is certainly inside it.
+    /// Writes a face at each corner that is certainly inside it.
     #[inline]
-    fn fill(&mut self, side: usize, places: Places, id: FaceId) {
+    fn fill(&mut self, side: usize, places: Places, id: FaceId, plane: &Plane) {
         let window = self.windows[side];
         let scale = self.cells_per_unit;
         let places = places.map(|[x, y]| [(x - window.x) * scale, (y - window.y) * scale]);
@@ -215,7 +200,7 @@ impl Reaches {
         let (bottom, top) = range(1, window.rows);
         // Most faces have no corner inside.
         if left <= right && bottom <= top {
-            self.fill_rows(side, places, [left, right, bottom, top], id);
+            self.fill_rows(side, places, [left, right, bottom, top], id, plane);
         }
     }
 
@@ -226,34 +211,49 @@ impl Reaches {
         [a, mut b, mut c]: Places,
         [left, right, bottom, top]: [f64; 4],
         id: FaceId,
+        plane: &Plane,
     ) {
         let window = self.windows[side];
         let turn = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
         if turn < 0.0 {
             core::mem::swap(&mut b, &mut c);
         }
-        let edges = [
+        let [p, q, r] = [
             Edge::new(a, b, self),
             Edge::new(b, c, self),
             Edge::new(c, a, self),
         ];
+        let cell = 1.0 / self.cells_per_unit;
+        let (to_right, up, ahead) = turned(side, plane.m);
+        let m = plane.m.abs();
+        let doubt = (m.x + m.y + m.z) * HEIGHT_ERROR;
+        let factor = 1.0 + 2.0 * plane.error;
         let mut row = bottom;
         while row <= top {
-            let starts = [0, 1, 2].map(|edge| edges[edge].start(row));
+            let [of_p, of_q, of_r] = [p.start(row), q.start(row), r.start(row)];
             let (mut first, mut last) = (left, right);
             if last - first > 3.0 {
-                for (edge, start) in edges.iter().zip(starts) {
+                for (edge, start) in [(&p, of_p), (&q, of_q), (&r, of_r)] {
                     edge.narrow(start, &mut first, &mut last);
                 }
             }
+            let along = up * (window.y + row * cell) + ahead;
             let line = window.first + row as usize * (window.columns + 1);
             let mut column = first;
             while column <= last {
-                let is_inside =
-                    (edges.iter().zip(starts)).all(|(edge, start)| start > edge.down * column);
-                if is_inside {
-                    self.faces[line + column as usize] = id;
-                }
+                let height = to_right * (window.x + column * cell) + along;
+                let is_inside = (of_p > p.down * column)
+                    & (of_q > q.down * column)
+                    & (of_r > r.down * column)
+                    & (height > 0.0);
+                // No processor can guess a branch here.
+                let keep = u64::from(is_inside).wrapping_sub(1);
+                let place = line + column as u32 as usize;
+                let known = (height * factor + doubt).to_bits();
+                let heights = &mut self.heights[place];
+                *heights = f64::from_bits(heights.to_bits() & keep | known & !keep);
+                let faces = &mut self.faces[place];
+                *faces = *faces & keep as u32 | id & !keep as u32;
                 column += 1.0;
             }
             row += 1.0;

@@ -21,7 +21,7 @@ use crate::answers::visibility_map::hides::{MOST, VisibilityMap};
 use crate::base::allocation::{OutOfMemory, filled};
 use crate::base::real::{larger, smaller, square_root};
 use crate::flip::inversion::Flip;
-use crate::hull::{Memory, Reaches, Window, direction};
+use crate::hull::{Reaches, Window};
 
 /// Stands for a direction in which nothing is hidden.
 pub(super) const NOWHERE: f32 = f32::MAX;
@@ -36,23 +36,14 @@ const ROUNDING: f64 = 1e-12;
 
 impl VisibilityMap {
     /// Writes the distances of these reaches.
-    pub(super) fn fill(
-        &mut self,
-        reaches: &Reaches,
-        hull: &Memory,
-        flip: &Flip,
-    ) -> Result<(), OutOfMemory> {
+    pub(super) fn fill(&mut self, reaches: &mut Reaches, flip: &Flip) -> Result<(), OutOfMemory> {
         let cell = 1.0 / reaches.cells_per_unit;
-        let mut lengths = filled(reaches.faces.len(), 0.0)?;
+        let mut lengths = core::mem::take(&mut reaches.heights);
         let mut least = filled(lengths.len(), 0.0)?;
         let mut distances = filled(lengths.len(), NOWHERE)?;
-        for (side, window) in reaches.windows.iter().enumerate() {
-            let [middle, x, y] =
-                [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]].map(|[x, y]| direction(side, x, y));
-            let (right, up) = (x - middle, y - middle);
-            each_corner(window, cell, &mut |place, [x, y], squared| {
-                let height = hull.height(reaches.faces[place], middle + right * x + up * y);
-                lengths[place] = square_root(squared) / height * (1.0 - ROUNDING);
+        for window in &reaches.windows {
+            each_corner(window, cell, &mut |place, _, squared| {
+                lengths[place] = square_root(squared) / lengths[place] * (1.0 - ROUNDING);
                 least[place] = lengths[place];
             });
         }

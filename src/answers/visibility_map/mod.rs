@@ -157,8 +157,8 @@ impl PointCloud {
                 thickness,
             };
             made.fill_by_surface(look, corners)?;
-        } else if let Some(reaches) = hull.reaches(corners)? {
-            made.fill(&reaches, hull, &flip)?;
+        } else if let Some(mut reaches) = hull.reaches(corners)? {
+            made.fill(&mut reaches, &flip)?;
         }
         Ok(made)
     }

@@ -88,26 +88,16 @@ impl Pool {
         map: &MapOptions,
         need: Need,
     ) -> Result<(Points, f64), OutOfMemory> {
-        let cone = Cone::of(map);
-        let viewpoint = DVec3::from_array(viewpoint);
-        let seen = |point: [f64; 3]| {
-            let v = DVec3::from_array(point) - viewpoint;
-            let is_asked = cone.as_ref().is_none_or(|cone| cone.contains(v));
-            let squared = v.dot(v);
-            let (side, x, y, _) = place(v);
-            // Rounded alike, so that the order is the same everywhere.
-            let squared = squared as f32;
-            (is_asked && squared > 0.0 && squared < f32::INFINITY).then_some((
-                side,
-                [x, y],
-                squared,
-            ))
+        let eye = Eye {
+            viewpoint: DVec3::from_array(viewpoint),
+            cone: Cone::of(map),
         };
         let stands_for = self.all as f64 / self.points.len().max(1) as f64;
         let mut is_chosen = filled(self.points.len(), false)?;
         let mut visible = 0.0;
         if self.points.len() > FEW {
-            let sample = Sample::of(self.points.iter().step_by(STEP).filter_map(seen))?;
+            let every = self.points.iter().step_by(STEP);
+            let sample = Sample::of(every.filter_map(|point| eye.sees(point)))?;
             visible = sample.near as f64 * STEP as f64 * stands_for;
             let enough = (self.all / ENOUGH_OF).clamp(FEW, ENOUGH) as f64;
             let count = match need {
@@ -119,23 +109,20 @@ impl Pool {
             };
             let count = smaller(count, map.points as f64);
             let grid = Grid::new(&sample.extents, count * sample.empty);
-            let mut nearest = filled(grid.cells, (f32::INFINITY, 0u32))?;
+            // The square of the distance, and the number of the point below it: a least number is found without a branch.
+            let mut nearest = filled(grid.cells, u64::MAX)?;
             for (number, point) in (0..).zip(self.points.iter()) {
-                if let Some((side, at, squared)) = seen(point) {
+                if let Some((side, at, squared)) = eye.sees(point) {
                     let nearest = &mut nearest[grid.cell(side, at)];
-                    if squared < nearest.0 {
-                        *nearest = (squared, number);
-                    }
+                    *nearest = (*nearest).min(u64::from(squared.to_bits()) << 32 | number);
                 }
             }
-            for &(squared, number) in &nearest {
-                if squared < f32::INFINITY {
-                    is_chosen[number as usize] = true;
-                }
+            for nearest in nearest.into_iter().filter(|&nearest| nearest < u64::MAX) {
+                is_chosen[nearest as u32 as usize] = true;
             }
         } else {
             for (is_chosen, point) in is_chosen.iter_mut().zip(self.points.iter()) {
-                *is_chosen = seen(point).is_some();
+                *is_chosen = eye.sees(point).is_some();
             }
         }
         // In the order of the pool, which is one along a curve.
@@ -148,6 +135,25 @@ impl Pool {
         );
         let stands_for = larger(visible / count.max(1) as f64, stands_for);
         Ok((self.points.gathered(&chosen)?, stands_for))
+    }
+}
+
+/// Where points are seen from.
+struct Eye {
+    viewpoint: DVec3,
+    cone: Option<Cone>,
+}
+
+impl Eye {
+    /// The side of the cube, the place there, and the square of the distance.
+    #[inline(always)]
+    fn sees(&self, point: [f64; 3]) -> Option<(usize, [f64; 2], f32)> {
+        let v = DVec3::from_array(point) - self.viewpoint;
+        let is_asked = self.cone.as_ref().is_none_or(|cone| cone.contains(v));
+        let (side, x, y, _) = place(v);
+        // Rounded alike, so that the order is the same everywhere.
+        let squared = v.dot(v) as f32;
+        (is_asked && squared > 0.0 && squared < f32::INFINITY).then_some((side, [x, y], squared))
     }
 }
 
@@ -254,8 +260,8 @@ impl Grid {
         if window.columns == 0 {
             return self.cells - 1;
         }
-        let column = ((x - window.x) * self.cells_per_unit) as usize;
-        let row = ((y - window.y) * self.cells_per_unit) as usize;
+        let column = ((x - window.x) * self.cells_per_unit) as u32 as usize;
+        let row = ((y - window.y) * self.cells_per_unit) as u32 as usize;
         window.first + row.min(window.rows - 1) * window.columns + column.min(window.columns - 1)
     }
 }

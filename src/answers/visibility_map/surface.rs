@@ -74,7 +74,7 @@ impl VisibilityMap {
                 let is_surface = triangle.longest <= longest * triangle.size;
                 let behind = BEHIND[usize::from(!is_surface)] * triangle.longest + thickness;
                 if before > 0.0 {
-                    let reach = length / hull.height(reaches.faces[place], ahead);
+                    let reach = length / reaches.heights[place];
                     distances[place] = stored(larger(before + behind, flip.distance_at(reach)));
                 }
             },
@@ -95,14 +95,10 @@ fn each_triangle(
     let cell = 1.0 / reaches.cells_per_unit;
     for (side, window) in reaches.windows.iter().enumerate() {
         each_corner(window, cell, &mut |place, [x, y], _| {
-            if place % step == 0
-                && let Some(vertices) = hull.corners(reaches.faces[place])
-            {
-                pass(
-                    place,
-                    direction(side, x, y),
-                    Triangle::of(vertices, corners),
-                );
+            if place % step == 0 && reaches.heights[place] < f64::INFINITY {
+                let vertices = hull.corners(reaches.faces[place]);
+                let triangle = Triangle::of(vertices, corners);
+                pass(place, direction(side, x, y), triangle);
             }
         });
     }
