@@ -41,7 +41,7 @@ const UNITS: core::ops::Range<f64> = 1e-15..1e15;
 const ONE_IN: f64 = 12.0;
 const ONE_IN_LOOKS: f64 = 2.0;
 /// The most corners for each point of a map, of which there are at least `FEW`.
-const CORNERS: usize = 6;
+const CORNERS: usize = 5;
 
 /// What a map is asked about. Points may have been `moved` so far.
 struct Asked<'a> {

@@ -17,10 +17,11 @@ use crate::view::resolved::normalized;
 
 /// The most points of a pool for each point of a map.
 const TIMES: usize = 6;
-/// Where the radius tells how many are needed, a pool has one in so many points of the cloud, but at least `SMALL`: to look
-/// through more would cost more than the hull.
-const PART: usize = 5;
+/// Where the radius tells how many are needed, a pool has one in so many points of the cloud, but at least `SMALL` and at
+/// most `LARGE`: to look through more would cost more than the hull.
+const PART: usize = 4;
 const SMALL: usize = 4 * FEW;
+const LARGE: usize = 16 * FEW;
 /// One in so many points of the pool shows where the cloud is seen.
 const STEP: usize = 16;
 /// At most so many cells for each that points are in, so that a grid takes little memory.
@@ -30,7 +31,7 @@ pub(super) const FEW: usize = 8192;
 const ENOUGH: usize = 10_500;
 const ENOUGH_OF: usize = 42;
 /// How many points there are for each that [`Need::ForRadius`] derives.
-const FOR_RADIUS: f64 = 1.2;
+const FOR_RADIUS: f64 = 1.25;
 /// How much wider than the given cone the points are, as a share of the angle.
 const WIDER: f64 = 1.1;
 
@@ -63,7 +64,7 @@ impl Pool {
     ) -> Result<&'a mut Self, OutOfMemory> {
         let mut size = map.points.saturating_mul(TIMES).min(points.len());
         if let Need::ForRadius(_) = need {
-            size = size.min((points.len() / PART).max(SMALL));
+            size = size.min((points.len() / PART).clamp(SMALL, LARGE));
         }
         let is_same = |pool: &Self| pool.size == size && pool.is_smooth == is_smooth;
         let new = match kept.take().filter(is_same) {
