@@ -1,5 +1,5 @@
 // npm run soak [-- --views N --points N]: what takes too long for npm test. The page's memory in its long form
-// (tests/browser/soak.test.ts), many views in workers, and one large cloud (tests/soak). Ends with status 1 if an
+// (tests/browser/soak.test.ts), many views in workers, all maps of a turn, and one large cloud (tests/soak). Ends with status 1 if an
 // answer was wrong or memory grew.
 import { parseArgs } from "node:util";
 
@@ -12,6 +12,7 @@ import { setUpForBuild } from "./setup/setup.js";
 
 interface Soak {
   views: (count: number) => Promise<boolean>;
+  maps: () => Promise<boolean>;
   large: (points: number) => Promise<boolean>;
 }
 
@@ -22,10 +23,11 @@ await command(async () => {
   await build();
   const env = { HPR_CHROMIUM: await setUpBrowser(), HPR_SOAK: "1" };
   const page = await run("vitest", ["run", "tests/browser/soak.test.ts"], { show: "results", env });
-  const { large, views } = await load<Soak>("tests/soak/soak.ts");
+  const { large, maps, views } = await load<Soak>("tests/soak/soak.ts");
   const right = [
     page.ok,
     await views(Number(values.views ?? 20_000)),
+    await maps(),
     await large(Number(values.points ?? 10_000_000)),
   ];
   // Open workers must not keep the process alive.

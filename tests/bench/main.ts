@@ -7,6 +7,7 @@ import { init } from "hidden-point-removal";
 
 import { CLOUDS, type Cloud } from "./clouds.js";
 import { timeDrafts } from "./drafts.js";
+import { timeFrames } from "./frames.js";
 import { describeMachine } from "./machine.js";
 import { timeMaps } from "./maps.js";
 import { readOctrees } from "./octrees.js";
@@ -25,7 +26,7 @@ const others = options.sections.has("speed") ? peers(options.peers) : [];
 const sections: Record<Section, () => Table[] | Promise<Table[]>> = {
   speed: () => timeQueries(chosenClouds(), others),
   drafts: () => [timeDrafts()],
-  maps: () => [timeMaps()],
+  maps: async () => [timeMaps(), await timeFrames()],
   workers: async () => [await timeWorkers()],
   sectors: () => [timeSectors()],
   octrees: async () => [await readOctrees()],

@@ -2,7 +2,7 @@
 import { PointCloud, type VisibilityMapOptions } from "hidden-point-removal";
 
 import { WrongAnswer } from "./check.js";
-import { CLOUDS } from "./clouds.js";
+import { type Cloud, CLOUDS } from "./clouds.js";
 import { median, type Row, type Table } from "./report.js";
 import { bounds, orbit } from "./views.js";
 
@@ -29,56 +29,59 @@ const EVERY = 12;
  * hides a visible point.
  */
 export function timeMaps(): Table {
-  const rows = SETTINGS.map(([name, options, angle]): Row => {
-    console.error(`${name}, ${JSON.stringify(options)}: maps…`);
-    const made = CLOUDS[name]!()!;
-    const cloud = new PointCloud(made.positions);
-    const at = orbit(made);
-    const { center } = bounds(made);
-    const times = { cold: [] as number[], map: [] as number[] };
-    const [shares, wrong]: [number[], number[]] = [[], []];
-    let first = 0;
-    for (let step = 0; step <= STEPS; step++) {
-      const viewpoint = at(DEGREES * step);
-      const ahead = at(DEGREES * step + 90);
-      const direction = center.map((x, axis) => ahead[axis]! - x);
-      const towards = angle === undefined ? {} : { towards: { direction, angle } };
-      const map = timed(() => cloud.visibilityMap(viewpoint, { ...options, ...towards }));
-      if (step === 0) first = map.milliseconds;
-      else times.map.push(map.milliseconds);
-      if (step % EVERY > 0 || step === 0) continue;
-      const cold = timed(() => cloud.visibleFrom(viewpoint, options));
-      times.cold.push(cold.milliseconds);
-      const hidden = map.answer.hides(made.positions);
-      const counts = { hidden: 0, found: 0, visible: 0, wrong: 0 };
-      cold.answer.mask().forEach((visible, i) => {
-        if (angle !== undefined && !isWithin(made.positions, i, viewpoint, direction, angle)) return;
-        counts[visible === 1 ? "visible" : "hidden"]++;
-        if (hidden[i] === 1) counts[visible === 1 ? "wrong" : "found"]++;
-      });
-      if (options.looks === undefined && counts.wrong > 0) throw new WrongAnswer(`${name}: a map hides visible points`);
-      // A bare wall hides nothing.
-      if (counts.hidden > 0) shares.push(counts.found / counts.hidden);
-      wrong.push(counts.wrong / counts.visible);
-    }
-    cloud.dispose();
-    const [cold, map] = [median(times.cold), median(times.map)];
-    return {
-      cloud: angle === undefined ? name : `${name}, ${angle}°`,
-      radius: JSON.stringify(options),
-      "cold ms": cold,
-      "map ms": map,
-      "map ÷ cold": map / cold,
-      "first map ms": first,
-      "hidden found %": 100 * (shares.reduce((sum, share) => sum + share) / shares.length),
-      "least %": 100 * Math.min(...shares),
-      "wrong, worst %": 100 * Math.max(...wrong),
-    };
-  });
+  const rows = SETTINGS.map(([name, options, angle]) => turn(CLOUDS[name]!()!, options, EVERY, angle));
   const note =
     `Median milliseconds in Node, on one core; ${STEPS} maps, ${DEGREES}° apart, of which one in ${EVERY} is compared. ` +
     '"Wrong" can be above 0 only with looks. With an angle, only a cone along the orbit counts.';
   return { title: "Maps of directions", note, rows };
+}
+
+/** A full turn around one cloud. One map in `every` is compared. */
+export function turn(made: Cloud, options: VisibilityMapOptions, every: number, angle?: number): Row {
+  const { name } = made;
+  console.error(`${name}, ${JSON.stringify(options)}: maps…`);
+  const cloud = new PointCloud(made.positions);
+  const at = orbit(made);
+  const { center } = bounds(made);
+  const times = { cold: [] as number[], map: [] as number[] };
+  const [shares, wrong]: [number[], number[]] = [[], []];
+  let first = 0;
+  for (let step = 0; step <= STEPS; step++) {
+    const viewpoint = at(DEGREES * step);
+    const ahead = at(DEGREES * step + 90);
+    const direction = center.map((x, axis) => ahead[axis]! - x);
+    const towards = angle === undefined ? {} : { towards: { direction, angle } };
+    const map = timed(() => cloud.visibilityMap(viewpoint, { ...options, ...towards }));
+    if (step === 0) first = map.milliseconds;
+    else times.map.push(map.milliseconds);
+    if (step % every > 0 || step === 0) continue;
+    const cold = timed(() => cloud.visibleFrom(viewpoint, options));
+    times.cold.push(cold.milliseconds);
+    const hidden = map.answer.hides(made.positions);
+    const counts = { hidden: 0, found: 0, visible: 0, wrong: 0 };
+    cold.answer.mask().forEach((visible, i) => {
+      if (angle !== undefined && !isWithin(made.positions, i, viewpoint, direction, angle)) return;
+      counts[visible === 1 ? "visible" : "hidden"]++;
+      if (hidden[i] === 1) counts[visible === 1 ? "wrong" : "found"]++;
+    });
+    if (options.looks === undefined && counts.wrong > 0) throw new WrongAnswer(`${name}: a map hides visible points`);
+    // A bare wall hides nothing.
+    if (counts.hidden > 0) shares.push(counts.found / counts.hidden);
+    wrong.push(counts.wrong / counts.visible);
+  }
+  cloud.dispose();
+  const [cold, map] = [median(times.cold), median(times.map)];
+  return {
+    cloud: angle === undefined ? name : `${name}, ${angle}°`,
+    radius: JSON.stringify(options),
+    "cold ms": cold,
+    "map ms": map,
+    "map ÷ cold": map / cold,
+    "first map ms": first,
+    "hidden found %": 100 * (shares.reduce((sum, share) => sum + share) / shares.length),
+    "least %": 100 * Math.min(...shares),
+    "wrong, worst %": 100 * Math.max(...wrong),
+  };
 }
 
 function isWithin(positions: ArrayLike<number>, i: number, viewpoint: number[], direction: number[], angle: number) {

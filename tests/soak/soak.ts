@@ -1,10 +1,13 @@
-// Two long checks of the package. Viewpoints move through clouds in workers all day, and points come and go: answers
-// stay right, and memory stays flat. And one large cloud is asked from end to end.
+// Long checks of the package. Viewpoints move through clouds in workers all day, and points come and go: answers
+// stay right, and memory stays flat. Each map of a turn around a large cloud is compared. And one large cloud is asked
+// from end to end.
 import { setFlagsFromString } from "node:v8";
 import { runInNewContext } from "node:vm";
 import { HprError, init, PointCloud } from "hidden-point-removal";
 import { WorkerPointCloud } from "hidden-point-removal/worker";
+import { bumpy, bumpyFiveMillion } from "../bench/clouds.js";
 import { bumpySurface, seeded, terrainUtm, unevenSurface } from "../bench/generators.js";
+import { turn } from "../bench/maps.js";
 
 type Place = [number, number, number];
 
@@ -112,6 +115,18 @@ class Walker {
     this.#given.push(...more);
     await Promise.all([this.#cloud.remove(gone), this.#cloud.append(more)]);
   }
+}
+
+/** Compares each map of a full turn with the exact answer of its viewpoint. A map that hides a visible point throws. */
+export async function maps(): Promise<boolean> {
+  await init();
+  const rows = [
+    turn(bumpy("bumpy-1m"), {}, 1),
+    turn(bumpy("bumpy-1m"), { looks: 3 }, 1),
+    turn(bumpyFiveMillion(), {}, 1),
+  ];
+  for (const row of rows) console.log(row);
+  return rows.every((row) => Number(row["wrong, worst %"]) <= 1);
 }
 
 /** Asks one large cloud, here and in workers; both give the same points. A refusal says its code. */
