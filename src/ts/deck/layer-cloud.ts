@@ -1,17 +1,17 @@
-import { Follower, type Round } from "../follow/follower.js";
-import type { RecoveryTimes } from "../follow/recovery.js";
-import { type AnswerKind, Refinement } from "../follow/refinement.js";
-import { type FollowSettings, stagesFor } from "../query/follow-options.js";
-import { isNear, type Place } from "../query/place.js";
-import type { VisibilityOptions } from "../query/view-options.js";
 import type { Visibility } from "../cloud/visibility.js";
 import { VisibilityMap } from "../cloud/visibility-map.js";
+import { Follower, type Round } from "../follow/follower.js";
+import type { RecoveryTimes } from "../follow/recovery.js";
+import type { AnswerKind } from "../follow/refinement.js";
+import { type FollowSettings, stagesFor } from "../query/follow-options.js";
+import { isNear, type Place } from "../query/place.js";
 import { WorkerPointCloud } from "../worker/client.js";
+import { FollowedView, see, type Seen } from "../worker/followed-view.js";
 
 interface Listener {
   /** After this call, the answer's memory is reused. */
   answer: (answer: Visibility, kind: AnswerKind, milliseconds: number) => void;
-  map: (map: VisibilityMap, from: Place) => void;
+  map: (map: VisibilityMap) => void;
   error: (error: Error) => void;
 }
 
@@ -23,7 +23,7 @@ const ONCE: RecoveryTimes = { delays: [0], pause: Infinity, longPause: Infinity 
 /** A layer's cloud, in the worker that all layers share. */
 export class LayerCloud {
   readonly #tell: Listener;
-  readonly #refinement = new Refinement<VisibilityOptions>(() => this.#follower?.follow());
+  readonly #view = new FollowedView(() => this.#follower?.follow());
   #place: Place | undefined;
   #settings: FollowSettings | undefined;
   #drawsMaps = false;
@@ -66,7 +66,10 @@ export class LayerCloud {
     this.#follower.follow();
   }
 
-  /** Answers are wanted for this view. `drawsMaps`: maps can be drawn. Returns whether the view is new. */
+  /**
+   * Answers are wanted for this view, in each frame. `drawsMaps`: maps can be drawn. Returns whether all points must be
+   * drawn until the next answer.
+   */
   want(place: Place, settings: FollowSettings, drawsMaps: boolean): boolean {
     const isSame =
       this.#place !== undefined &&
@@ -74,24 +77,25 @@ export class LayerCloud {
       this.#drawsMaps === drawsMaps &&
       isNear(this.#place, place, settings.moveThreshold, this.#cloud?.spacing ?? 0);
     if (!isSame) {
-      this.#place = place;
-      this.#settings = settings;
-      this.#drawsMaps = drawsMaps;
+      [this.#place, this.#settings, this.#drawsMaps] = [place, settings, drawsMaps];
       this.#begin();
     }
+    const isOutdated = this.#view.isOutdated(settings.stale);
+    if (isOutdated) this.#view.drawn = undefined;
+    this.#view.before = place;
     this.#follower?.follow();
-    return !isSame;
+    return isOutdated;
   }
 
   #begin(): void {
     if (this.#settings !== undefined) {
       const isMapped = this.#drawsMaps && this.#place?.isDirection !== true;
-      this.#refinement.moved(stagesFor(this.#settings, this.length, isMapped));
+      this.#view.refinement.moved(stagesFor(this.#settings, this.length, isMapped));
     }
   }
 
   dispose(): void {
-    this.#refinement.stop();
+    this.#view.refinement.stop();
     this.#follower?.stop();
     this.#follower = undefined;
     this.#dropCloud();
@@ -102,7 +106,7 @@ export class LayerCloud {
       return this.#preparing(this.#unread);
     }
     const [cloud, place] = [this.#cloud, this.#place];
-    const isDue = cloud !== undefined && place !== undefined && this.#refinement.due !== undefined;
+    const isDue = cloud !== undefined && place !== undefined && this.#view.refinement.due !== undefined;
     return isDue ? this.#viewing(cloud, place) : undefined;
   }
 
@@ -122,29 +126,19 @@ export class LayerCloud {
     };
   }
 
-  #viewing(cloud: WorkerPointCloud, place: Place): Round<Visibility | VisibilityMap> {
-    const begun = performance.now();
-    const { from, isDirection } = place;
-    return this.#refinement.round<Visibility | VisibilityMap>(
-      ({ kind, options, signal }) => {
-        const asked = { ...options, signal };
-        if (kind === "map") {
-          return cloud.visibilityMap(from, asked);
-        }
-        return isDirection ? cloud.visibleFromDirection(from, asked) : cloud.visibleFrom(from, asked);
-      },
-      (answer, stage) => {
+  #viewing(cloud: WorkerPointCloud, place: Place): Round<Seen> {
+    return this.#view.round(
+      place,
+      this.#settings!.stale,
+      (stage) => see(cloud, place, stage),
+      (answer, kind, milliseconds) => {
         this.#follower?.answered();
-        if (this.#settings?.stale === "all" && !stage.isCurrent()) {
-          return undefined;
-        }
-        if (answer instanceof VisibilityMap) {
-          return () => {
-            this.#tell.map(answer, place);
-          };
-        }
         return () => {
-          this.#tell.answer(answer, stage.kind, performance.now() - begun);
+          if (answer instanceof VisibilityMap) {
+            this.#tell.map(answer);
+            return;
+          }
+          this.#tell.answer(answer, kind, milliseconds);
           cloud.recycle(answer);
         };
       },
@@ -152,6 +146,7 @@ export class LayerCloud {
   }
 
   #dropCloud(): void {
+    this.#view.drawn = undefined;
     void this.#cloud?.dispose();
     this.#cloud = undefined;
   }

@@ -9,7 +9,6 @@ import { givenOptions, pick } from "../query/options.js";
 import { VIEW_OPTIONS, type VisibilityOptions } from "../query/view-options.js";
 import type { Visibility } from "../cloud/visibility.js";
 import type { VisibilityMap } from "../cloud/visibility-map.js";
-import { isFarFrom, type Place } from "../query/place.js";
 import { isBinary, positionsOf } from "./data.js";
 import { Frame } from "./frame.js";
 import { LayerCloud } from "./layer-cloud.js";
@@ -73,11 +72,8 @@ type State = {
   version: number;
   /** The data with the mask as an attribute, if the data is binary. */
   data: unknown;
-  /** The map that is drawn instead of an answer, and the places of what is drawn and of the camera before. */
+  /** The map that is drawn instead of an answer. */
   map: MapOnCard | undefined;
-  drawnFrom: Place | undefined;
-  before: Place | undefined;
-  center: readonly number[] | undefined;
 };
 
 type Update = Pick<UpdateParameters<Layer>, "changeFlags">;
@@ -129,8 +125,8 @@ export class VisiblePointCloudLayer<DataT = unknown> extends CompositeLayer<Visi
       answer: (answer, kind, milliseconds) => {
         (this.getCurrentLayer() as this | null)?.applyAnswer(answer, kind, milliseconds);
       },
-      map: (map, from) => {
-        (this.getCurrentLayer() as this | null)?.applyMap(map, from);
+      map: (map) => {
+        (this.getCurrentLayer() as this | null)?.applyMap(map);
       },
       error: (error) => {
         this.getCurrentLayer()?.raiseError(error, "");
@@ -145,9 +141,6 @@ export class VisiblePointCloudLayer<DataT = unknown> extends CompositeLayer<Visi
       version: 0,
       data: undefined,
       map: undefined,
-      drawnFrom: undefined,
-      before: undefined,
-      center: undefined,
     });
   }
 
@@ -208,13 +201,9 @@ export class VisiblePointCloudLayer<DataT = unknown> extends CompositeLayer<Visi
       hasSaid = true;
       console.info("hidden-point-removal: data in degrees takes no map of directions, so drafts are drawn");
     }
-    const isNew = cloud.want(place, settings, drawsMaps);
-    const { drawnFrom, before, center } = this.state;
-    const isFar = center !== undefined && drawnFrom !== undefined && before !== undefined;
-    if ((isNew && settings.stale === "all") || (isFar && isFarFrom(drawnFrom, before, center))) {
+    if (cloud.want(place, settings, drawsMaps)) {
       this.#drawAll();
     }
-    this.state.before = place;
   }
 
   /** Draws all points until the next answer. */
@@ -222,7 +211,7 @@ export class VisiblePointCloudLayer<DataT = unknown> extends CompositeLayer<Visi
     const { mask, map } = this.state;
     if (mask !== undefined || map !== undefined) {
       map?.texture.destroy();
-      this.setState({ mask: undefined, data: undefined, map: undefined, drawnFrom: undefined });
+      this.setState({ mask: undefined, data: undefined, map: undefined });
     }
   }
 
@@ -283,7 +272,7 @@ export class VisiblePointCloudLayer<DataT = unknown> extends CompositeLayer<Visi
       ? { ...data, attributes: { ...data.attributes, getFilterValue: { value: mask, size: 1 } } }
       : undefined;
     this.state.map?.texture.destroy();
-    this.setState({ mask, version: version + 1, data: withMask, map: undefined, drawnFrom: this.state.before });
+    this.setState({ mask, version: version + 1, data: withMask, map: undefined });
     (this.props as unknown as Own).onVisible?.({
       count: answer.count,
       milliseconds,
@@ -293,9 +282,9 @@ export class VisiblePointCloudLayer<DataT = unknown> extends CompositeLayer<Visi
   }
 
   /** @internal */
-  applyMap(map: VisibilityMap, from: Place): void {
+  applyMap(map: VisibilityMap): void {
     this.state.map?.texture.destroy();
     const texture = textureOf(this.context.device, map.data);
-    this.setState({ map: { map, texture }, drawnFrom: from, center: map.center });
+    this.setState({ map: { map, texture } });
   }
 }

@@ -183,7 +183,7 @@ export abstract class GatheredFilter<Node extends GatheredNode> extends CameraFi
     return this.view(
       camera,
       (place, stage) => gathered.see(place, stage),
-      (answer, _, place) => {
+      (answer, place) => {
         let count = 0;
         this.drawing.begin?.(camera, gathered.points);
         for (const { node, own } of gathered.split(answer)) {

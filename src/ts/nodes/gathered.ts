@@ -2,7 +2,8 @@ import type { Points } from "three";
 
 import { asError, HprError } from "../base/errors.js";
 import { allocating, concatenated } from "../base/memory.js";
-import { type Cloud, prepareCloud, see, type Seen } from "../three/cloud.js";
+import { prepareCloud } from "../three/cloud.js";
+import { type Cloud, see, type Seen } from "../worker/followed-view.js";
 import type { AskedStage } from "../follow/refinement.js";
 import type { Visibility } from "../cloud/visibility.js";
 import type { Place } from "../query/place.js";

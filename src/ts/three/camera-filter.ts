@@ -12,7 +12,7 @@ import type { FollowSettings } from "../query/follow-options.js";
 import type { Place } from "../query/place.js";
 import type { VisibilityOptions } from "../query/view-options.js";
 import { type FollowedCamera, FollowedCameras } from "./cameras.js";
-import type { Seen } from "./cloud.js";
+import type { Seen } from "../worker/followed-view.js";
 import type { Space } from "./eye.js";
 
 interface FilterEvents {
@@ -159,8 +159,7 @@ export abstract class CameraFilter<Events extends FilterEvents> extends Sender<E
         this.leave(followed);
       }
       isChanged = this.noticeChanges();
-      const isOld = this.#settings.stale === "all" ? !followed.isCurrent : followed.isFarOff;
-      if (isOld && followed.drawn !== undefined) {
+      if (followed.isOutdated(this.#settings.stale)) {
         this.drawing.setStale(followed);
         followed.drawn = undefined;
       }
@@ -222,33 +221,24 @@ export abstract class CameraFilter<Events extends FilterEvents> extends Sender<E
   protected view(
     camera: FollowedCamera,
     ask: (place: Place, stage: AskedStage<VisibilityOptions>) => Seen | Promise<Seen>,
-    draw: (answer: Visibility, stage: AskedStage<VisibilityOptions>, place: Place) => Told | undefined,
+    draw: (answer: Visibility, place: Place) => Told | undefined,
     drawMap: (map: VisibilityMap, place: Place) => Told | undefined,
   ): Round<Seen> {
-    const begun = performance.now();
     const { place } = camera.eye;
-    return camera.refinement.round(
+    return camera.round(
+      place,
+      this.#settings.stale,
       (stage) => ask(place, stage),
-      (answer, stage) => {
-        const isOutdated = this.#settings.stale === "all" && !stage.isCurrent();
-        if (isOutdated) {
-          return undefined;
-        }
-        if (answer instanceof VisibilityMap) {
-          camera.map = answer;
-        }
-        const drawn = answer instanceof VisibilityMap ? drawMap(answer, place) : draw(answer, stage, place);
+      (answer, kind, milliseconds) => {
+        const drawn = answer instanceof VisibilityMap ? drawMap(answer, place) : draw(answer, place);
         if (drawn === undefined) {
           return undefined;
         }
-        camera.drawn = stage;
-        camera.drawnFrom = place;
         this.follower.answered();
-        if (!isStandIn(stage.kind)) {
+        if (!isStandIn(kind)) {
           this.readiness.resolve();
         }
-        const milliseconds = performance.now() - begun;
-        const change = { ...drawn, milliseconds, answer: stage.kind, camera: camera.camera };
+        const change = { ...drawn, milliseconds, answer: kind, camera: camera.camera };
         return () => {
           this.tell();
           this.send("change" as never, change as never);

@@ -1,51 +1,25 @@
 import type { Camera } from "three";
 
-import { type AnswerKind, type AskedStage, isStandIn, Refinement, type Stage } from "../follow/refinement.js";
+import { isStandIn, type Stage } from "../follow/refinement.js";
 import { type FollowSettings, REST, stagesFor } from "../query/follow-options.js";
-import type { VisibilityMap } from "../cloud/visibility-map.js";
-import { isFarFrom, type Place } from "../query/place.js";
 import type { VisibilityOptions } from "../query/view-options.js";
+import { FollowedView } from "../worker/followed-view.js";
 import { Eye, requireCamera, type Space } from "./eye.js";
 
 /** One camera's view of a cloud, and how far its answers have come. */
-export class FollowedCamera {
+export class FollowedCamera extends FollowedView {
   readonly camera: Camera;
   readonly eye: Eye;
-  readonly refinement: Refinement<VisibilityOptions>;
-  /** The question whose answer is drawn for this camera. */
-  drawn: AskedStage | undefined;
-  /** The place that this answer is about, and the camera's place in the frame before. */
-  drawnFrom: Place | undefined;
-  before: Place | undefined;
-  /** The last map for this camera. */
-  map: VisibilityMap | undefined;
 
-  constructor(camera: Camera, eye: Eye, refinement: Refinement<VisibilityOptions>) {
+  constructor(camera: Camera, eye: Eye, wake: () => void) {
+    super(wake);
     this.camera = camera;
     this.eye = eye;
-    this.refinement = refinement;
-  }
-
-  /** What is drawn for this camera. Null: all points. */
-  get answer(): AnswerKind | null {
-    return this.drawn?.kind ?? null;
   }
 
   /** Whether the view has moved a moment ago. */
   get isMoving(): boolean {
     return this.refinement.stillFor < REST;
-  }
-
-  /** Whether the answer that is drawn belongs to the camera's present view. */
-  get isCurrent(): boolean {
-    return this.drawn?.isCurrent() ?? false;
-  }
-
-  /** Whether the answer that is drawn is older than a frame, and from too far away to stand in. */
-  get isFarOff(): boolean {
-    const { map, drawnFrom, before } = this;
-    const isOld = map !== undefined && drawnFrom !== undefined && before !== undefined && !this.isCurrent;
-    return isOld && isFarFrom(drawnFrom, before, map.center);
   }
 }
 
@@ -155,7 +129,7 @@ export class FollowedCameras {
   #added(camera: Camera): FollowedCamera {
     const eye = new Eye(this.#settings.moveThreshold);
     eye.spacing = this.#spacing;
-    const followed = new FollowedCamera(camera, eye, new Refinement<VisibilityOptions>(this.#wake));
+    const followed = new FollowedCamera(camera, eye, this.#wake);
     this.#cameras.set(camera, followed);
     if (this.#cameras.size > MOST) {
       const [oldest, given] = this.#cameras.entries().next().value!;

@@ -1,0 +1,83 @@
+import type { PointCloud } from "../cloud/cloud.js";
+import type { Visibility } from "../cloud/visibility.js";
+import { VisibilityMap } from "../cloud/visibility-map.js";
+import type { Round } from "../follow/follower.js";
+import { type AnswerKind, type AskedStage, Refinement } from "../follow/refinement.js";
+import type { FollowSettings } from "../query/follow-options.js";
+import { isFarFrom, type Place } from "../query/place.js";
+import type { VisibilityOptions } from "../query/view-options.js";
+import { WorkerPointCloud } from "./client.js";
+
+/** Both classes give the same answers. A `WorkerPointCloud` gives them as promises. */
+export type Cloud = PointCloud | WorkerPointCloud;
+export type Seen = Visibility | VisibilityMap;
+
+/** Asks either kind of cloud. The signal works only in a worker: elsewhere, the answer comes at once. */
+export function see(
+  cloud: Cloud,
+  { from, isDirection }: Place,
+  { kind, options, signal }: AskedStage<VisibilityOptions>,
+): Seen | Promise<Seen> {
+  const asked = cloud instanceof WorkerPointCloud ? { ...options, signal } : options;
+  if (kind === "map") {
+    return cloud.visibilityMap(from, asked);
+  }
+  return isDirection ? cloud.visibleFromDirection(from, asked) : cloud.visibleFrom(from, asked);
+}
+
+/** A view of a cloud that moves, and what is drawn of it. */
+export class FollowedView {
+  readonly refinement: Refinement<VisibilityOptions>;
+  /** The question whose answer is drawn. Undefined: all points are drawn. */
+  drawn: AskedStage | undefined;
+  /** The place in the frame before. */
+  before: Place | undefined;
+  #drawnFrom: Place | undefined;
+  #map: VisibilityMap | undefined;
+
+  /** `wake` is called when a question becomes due. */
+  constructor(wake: () => void) {
+    this.refinement = new Refinement(wake);
+  }
+
+  /** What is drawn. Null: all points. */
+  get answer(): AnswerKind | null {
+    return this.drawn?.kind ?? null;
+  }
+
+  /** Whether the answer that is drawn must give way to all points. */
+  isOutdated(stale: FollowSettings["stale"]): boolean {
+    if (this.drawn === undefined || this.drawn.isCurrent()) {
+      return false;
+    }
+    const [map, from, before] = [this.#map, this.#drawnFrom, this.before];
+    const isFar =
+      map !== undefined && from !== undefined && before !== undefined && isFarFrom(from, before, map.center);
+    return isFar || stale === "all";
+  }
+
+  /**
+   * The round that asks the question that is due, about a place. `draw` draws the answer, and returns the function that
+   * informs the listeners, or undefined if the answer is about other points.
+   */
+  round(
+    place: Place,
+    stale: FollowSettings["stale"],
+    ask: (stage: AskedStage<VisibilityOptions>) => Seen | Promise<Seen>,
+    draw: (answer: Seen, kind: AnswerKind, milliseconds: number) => (() => void) | undefined,
+  ): Round<Seen> {
+    const begun = performance.now();
+    return this.refinement.round(ask, (answer, stage) => {
+      if (stale === "all" && !stage.isCurrent()) {
+        return undefined;
+      }
+      const tell = draw(answer, stage.kind, performance.now() - begun);
+      if (tell !== undefined) {
+        this.drawn = stage;
+        this.#drawnFrom = place;
+        if (answer instanceof VisibilityMap) this.#map = answer;
+      }
+      return tell;
+    });
+  }
+}
