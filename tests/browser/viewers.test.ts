@@ -103,7 +103,7 @@ describe.each([
       const filter = new adapter.HiddenPointNodesFilter(root, {
         settle: false,
         mode: "dim",
-        dimMaterial: new THREE.PointsMaterial({ color: "red" }),
+        dimMaterial: new THREE.PointsMaterial({ color: "red", size: 1, sizeAttenuation: false }),
       });
       const errors: string[] = [];
       filter.addEventListener("error", ({ error }) => errors.push(error.message));
@@ -172,8 +172,32 @@ describe.each([
         });
       }
       const all = drawn().positions;
+
+      /** The pixels on which the viewer draws its own points, one pixel each. The background is blue, hidden points are red. */
+      const pixels = () => {
+        renderer.setClearColor("blue");
+        for (const { material } of shown()) {
+          Object.assign(material, { size: 1, sizeAttenuation: false, pointSizeType: 0, needsUpdate: true });
+        }
+        renderer.render(scene, camera);
+        const data = new Uint8Array(4 * 200 * 200);
+        renderer.getContext().readPixels(0, 0, 200, 200, 6408, 5121, data);
+        const is = (i: number, [r, , b]: number[]) => Math.abs(data[i]! - r!) + Math.abs(data[i + 2]! - b!) < 40;
+        const all = Array.from({ length: 200 * 200 }, (_, i) => 4 * i).filter((i) => !is(i, [0, 0, 255]));
+        return { red: all.filter((i) => is(i, [255, 0, 0])), own: all.filter((i) => !is(i, [255, 0, 0])) };
+      };
+      const filtered = pixels();
       filter.dispose();
-      return { views, errors, all, afterwards: drawn().ids.length };
+      const unfiltered = pixels();
+      const own = new Set(unfiltered.own);
+      const picture = {
+        own: filtered.own.length,
+        red: filtered.red.length,
+        back: filtered.red.filter((i) => own.has(i)).length,
+        lost: filtered.own.filter((i) => !own.has(i)).length,
+        redAfterwards: unfiltered.red.length,
+      };
+      return { views, errors, all, picture, afterwards: drawn().ids.length };
     }, viewer);
 
     expect(errors).toEqual([]);
@@ -187,6 +211,11 @@ describe.each([
       // Hidden points are drawn at the node's place.
       expect(children).toEqual(Array(nodes).fill(true));
     }
+    // Where hidden points were, the viewer draws its own points again.
+    const { own, red, ...picture } = found.picture;
+    expect(own).toBeGreaterThan(500);
+    expect(red).toBeGreaterThan(100);
+    expect(picture).toEqual({ back: red, lost: 0, redAfterwards: 0 });
     // All points are at the places in the file, except for the viewer's own offset.
     const offset = viewer === "potree-core" ? [-2, -2, -2] : [100, -20, 3];
     const sorted = (points: number[][]) => points.map(String).sort();
