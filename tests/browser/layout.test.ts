@@ -59,30 +59,28 @@ async function flaws(page: Page): Promise<string[]> {
   });
 }
 
-test("at 1280, 1000 and 761 px nothing overlaps and every control has a label", async () => {
-  const page = await openReady("?sample=dragon_res4", { viewport: { width: 1280, height: 800 } });
+/** Unfolds every section of the panel, or folds all. */
+const foldAll = (page: Page, isOpen: boolean) =>
+  page.evaluate((open) => {
+    document.getElementById("panel")!.classList.toggle("open", open);
+    for (const section of document.querySelectorAll("details")) section.open = open;
+  }, isOpen);
+
+test("folded and unfolded, at 1280, 1000 and 761 px nothing overlaps and every control has a label", async () => {
+  const page = await openReady("?sample=dragon_res4&color=height", { viewport: { width: 1280, height: 800 } });
   for (const width of [1280, 1000, 761]) {
     await page.setViewportSize({ width, height: 800 });
-    await expect.poll(() => flaws(page), { message: `${width} px` }).toEqual([]);
-  }
-});
-
-test.for([{ viewport: { width: 1280, height: 800 } }, { viewport: { width: 761, height: 700 } }, PHONE])(
-  "with every section unfolded nothing overlaps ($viewport.width px)",
-  async (options) => {
-    const page = await openReady("?sample=dragon_res4&color=height", options);
-    await page.evaluate(() => {
-      document.getElementById("panel")!.classList.add("open");
-      for (const section of document.querySelectorAll("details")) section.open = true;
-    });
-    expect(await flaws(page)).toEqual([]);
+    for (const isOpen of [false, true]) {
+      await foldAll(page, isOpen);
+      await expect.poll(() => flaws(page), { message: `${width} px` }).toEqual([]);
+    }
     // The slider and its button are in one row.
     const [slider, automatic] = await Promise.all(
       ["#exponent", "#radius-auto"].map((id) => page.locator(id).boundingBox()),
     );
     expect(automatic!.x).toBeGreaterThan(slider!.x + slider!.width);
-  },
-);
+  }
+});
 
 test("on a phone the panel is a bar that opens upwards, nothing overlaps, and one finger orbits", async () => {
   const page = await openReady("?sample=dragon_res4", PHONE);
@@ -140,10 +138,7 @@ test.for([
   );
   await page.locator("#tools").waitFor();
   for (const open of [false, true]) {
-    await page.evaluate((unfolded) => {
-      document.getElementById("panel")!.classList.toggle("open", unfolded);
-      for (const section of document.querySelectorAll("details")) section.open = unfolded;
-    }, open);
+    await foldAll(page, open);
     expect(await flaws(page)).toEqual([]);
   }
   // The cloud keeps enough space, and its tools stay within it.
@@ -160,11 +155,11 @@ test.for([
   ).toBeLessThanOrEqual(0);
 });
 
-test("every control is at least 44 pixels large for fingers", async () => {
-  const page = await openReady("?sample=bunny", PHONE);
+test("every control is at least 44 pixels large for fingers, and covers no other", async () => {
+  const page = await openReady("?sample=bunny&color=height", PHONE);
+  await foldAll(page, true);
+  expect(await flaws(page)).toEqual([]);
   const small = await page.evaluate(() => {
-    document.getElementById("panel")!.classList.add("open");
-    for (const section of document.querySelectorAll("details")) section.open = true;
     const all = [
       ...document.querySelectorAll<HTMLElement>(
         "button, select, summary, .segmented label, input[type=range], #through-choice",

@@ -89,7 +89,7 @@ test("the scanner of the street sees all points that its own beams met", async (
   const street = await oracleFor({ sample: "street" }, new Float32Array());
   const sees = street.from([-21, 1.1, 1.75]);
   // These points belong to the first of three stations. The first 60,000 points are from this station.
-  const tried = Array.from({ length: 6000 }, (_, i) => 7 * i);
+  const tried = Array.from({ length: 1500 }, (_, i) => 28 * i);
   expect(tried.filter((i) => !sees(i))).toEqual([]);
   // From the other end of the street, many points are hidden.
   const other = street.from([22, 0.9, 1.75]);
@@ -108,7 +108,8 @@ test("in the room the ceiling is seen and the floor under the rug is hidden, als
       like(positions[3 * i]!, positions[3 * i + 1]!, positions[3 * i + 2]!),
     );
     expect(chosen.length).toBeGreaterThan(1000);
-    return chosen.filter(sees).length / chosen.length;
+    const tried = chosen.filter((_, i) => i % 4 === 0);
+    return tried.filter(sees).length / tried.length;
   };
   // The bookcase, the lamp and the plant hide small parts of the ceiling.
   expect(share((_x, y) => y > 2.69)).toBeGreaterThan(0.97);

@@ -25,30 +25,18 @@ async function rowsIn(page: Page, id: string): Promise<Record<string, string>> {
   return Object.fromEntries(lines) as Record<string, string>;
 }
 
-test.for(["ply", "obj"])(
-  "a %s file with map coordinates stands upright, one without them does not change",
-  async (ending) => {
-    const write = (values: ArrayLike<number>) =>
-      ending === "ply"
-        ? asciiPly(values)
-        : new TextEncoder().encode(
-            Array.from(
-              { length: values.length / 3 },
-              (_, i) => `v ${[0, 1, 2].map((k) => values[3 * i + k]).join(" ")}\n`,
-            ).join(""),
-          );
-    served.set(`clouds/map.${ending}`, write(positions));
-    served.set(`clouds/object.${ending}`, write(positions.map((value, i) => value - MIDDLE[i % 3]!)));
-    const up = async (name: string) => {
-      const page = await openReady(`?src=clouds/${name}.${ending}`);
-      await upToDate(page);
-      expect(new URL(page.url()).searchParams.has("up")).toBe(false);
-      return page.locator("#up-axis input:checked").getAttribute("value");
-    };
-    expect(await up("map")).toBe("z");
-    expect(await up("object")).toBe("y");
-  },
-);
+test("a ply file with map coordinates stands upright, one without them does not change", async () => {
+  served.set("clouds/map.ply", asciiPly(positions));
+  served.set("clouds/object.ply", asciiPly(positions.map((value, i) => value - MIDDLE[i % 3]!)));
+  const up = async (name: string) => {
+    const page = await openReady(`?src=clouds/${name}.ply`);
+    await upToDate(page);
+    expect(new URL(page.url()).searchParams.has("up")).toBe(false);
+    return page.locator("#up-axis input:checked").getAttribute("value");
+  };
+  expect(await up("map")).toBe("z");
+  expect(await up("object")).toBe("y");
+});
 
 test("an organised PCD with gaps opens at once, and a message says how many places have no point", async () => {
   const width = 20;
@@ -105,12 +93,10 @@ test("a text's digits come back in a pick, also of four-byte floats", async () =
 });
 
 test.for([
-  { wkt: UTM, unit: "m" },
   {
     wkt: 'PROJCS["NAD83 / New York",GEOGCS["NAD83",UNIT["degree",0.01745]],UNIT["US survey foot",0.304800609601219]]',
     unit: "ft (US survey)",
   },
-  { wkt: 'PROJCRS["a",BASEGEOGCRS["b"],CS[Cartesian,2],LENGTHUNIT["foot",0.3048]]', unit: "ft" },
   { wkt: "nonsense", unit: "units" },
 ])("a measure has its horizontal part, its difference of heights and the unit: $unit", async ({ wkt, unit }) => {
   const page = await openLas({ wkt });

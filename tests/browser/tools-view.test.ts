@@ -1,18 +1,7 @@
 import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
 import { at, openBall, place, tool } from "./ball.js";
-import {
-  differentPixels,
-  drag,
-  openReady,
-  PHONE,
-  picture,
-  refiltered,
-  serveSmallDragon,
-  settled,
-  status,
-  upToDate,
-} from "./support.js";
+import { differentPixels, drag, openReady, PHONE, picture, settled, status, upToDate } from "./support.js";
 
 /** Where the divider is, in pixels from the left. */
 async function dividerAt(page: Page): Promise<number> {
@@ -67,16 +56,7 @@ test("the divider shows all points to its left and visible ones to its right, by
   expect(await divider.isVisible()).toBe(false);
 });
 
-test("the bare page opens divided, and stays divided", async () => {
-  serveSmallDragon();
-  const page = await openReady();
-  const divider = page.locator("#divider");
-  expect(await divider.isVisible()).toBe(true);
-  const before = await status(page);
-  await drag(page, 60, 0);
-  await refiltered(page, before);
-  expect(await divider.isVisible()).toBe(true);
-
+test("the address says where the picture is divided, and it stays divided", async () => {
   const asked = await openReady("?sample=dragon_res4&compare=0.3");
   expect(await asked.locator("#divider").isVisible()).toBe(true);
   await drag(asked, 60, 0);
@@ -122,58 +102,56 @@ test("the question mark opens the sheet with all keys; it keeps the focus and gi
   expect(await sheet.isVisible()).toBe(false);
 });
 
-test.for([
-  { viewport: { width: 1280, height: 800 } },
-  { viewport: { width: 761, height: 600 } },
-  PHONE,
-  { ...PHONE, viewport: { width: 320, height: 600 } },
-])("every tool has its place and covers no other ($viewport.width px)", async (options) => {
-  const page = await openReady("?sample=dragon_res4", options);
-  expect(await tool(page, "Stations").isVisible()).toBe(true);
-  await tool(page, "Compare").click();
-  for (const name of ["Pick", "Measure", "Label", "Export"]) {
-    await tool(page, name).click();
-    const flaws = await page.evaluate(() => {
-      // A card may be scrolled. Only its part in the picture can cover something.
-      const boxOf = (element: Element) => {
-        const { left, right, top, bottom, width, height } = element.getBoundingClientRect();
-        const card = element.closest("#tool-card");
-        if (!card || card === element) return { left, right, top, bottom, width, height };
-        const frame = card.getBoundingClientRect();
-        const [low, high] = [Math.max(top, frame.top), Math.min(bottom, frame.bottom)];
-        return { left, right, top: low, bottom: Math.max(low, high), width, height };
-      };
-      // On a phone the tools may be under the canvas.
-      const [canvas, stage] = ["view", "stage"].map((id) => boxOf(document.getElementById(id)!));
-      const shown = [
-        ...document.querySelectorAll(
-          "#tool-bar button, #tool-card button, #tool-card label, #tool-card output, #compare-note span",
-        ),
-      ].filter((element) => element.checkVisibility() && element.textContent !== "");
-      const found: string[] = [];
-      for (const [i, a] of shown.entries()) {
-        const box = boxOf(a);
-        const place = (a.closest("#tools") ? stage : canvas)!;
-        if (box.left < place.left || box.right > place.right || box.bottom > place.bottom || box.top < place.top) {
-          found.push(`${a.textContent} leaves its place`);
+test.for([{ viewport: { width: 761, height: 600 } }, { ...PHONE, viewport: { width: 320, height: 600 } }])(
+  "every tool has its place and covers no other ($viewport.width px)",
+  async (options) => {
+    const page = await openReady("?sample=dragon_res4", options);
+    expect(await tool(page, "Stations").isVisible()).toBe(true);
+    await tool(page, "Compare").click();
+    for (const name of ["Pick", "Measure", "Label", "Export"]) {
+      await tool(page, name).click();
+      const flaws = await page.evaluate(() => {
+        // A card may be scrolled. Only its part in the picture can cover something.
+        const boxOf = (element: Element) => {
+          const { left, right, top, bottom, width, height } = element.getBoundingClientRect();
+          const card = element.closest("#tool-card");
+          if (!card || card === element) return { left, right, top, bottom, width, height };
+          const frame = card.getBoundingClientRect();
+          const [low, high] = [Math.max(top, frame.top), Math.min(bottom, frame.bottom)];
+          return { left, right, top: low, bottom: Math.max(low, high), width, height };
+        };
+        // On a phone the tools may be under the canvas.
+        const [canvas, stage] = ["view", "stage"].map((id) => boxOf(document.getElementById(id)!));
+        const shown = [
+          ...document.querySelectorAll(
+            "#tool-bar button, #tool-card button, #tool-card label, #tool-card output, #compare-note span",
+          ),
+        ].filter((element) => element.checkVisibility() && element.textContent !== "");
+        const found: string[] = [];
+        for (const [i, a] of shown.entries()) {
+          const box = boxOf(a);
+          const place = (a.closest("#tools") ? stage : canvas)!;
+          if (box.left < place.left || box.right > place.right || box.bottom > place.bottom || box.top < place.top) {
+            found.push(`${a.textContent} leaves its place`);
+          }
+          if (a.matches("#tool-bar button") && (box.width < 44 || box.height < 44)) {
+            found.push(`${a.textContent} is too small`);
+          }
+          if (a.scrollWidth > a.clientWidth + 1 && a.matches("button")) found.push(`${a.textContent} is cut off`);
+          for (const b of shown.slice(i + 1)) {
+            const other = boxOf(b);
+            const over =
+              Math.min(box.right, other.right) - Math.max(box.left, other.left) > 1.5 &&
+              Math.min(box.bottom, other.bottom) - Math.max(box.top, other.top) > 1.5;
+            if (over) found.push(`${a.textContent} lies over ${b.textContent}`);
+          }
         }
-        if (a.matches("#tool-bar button") && (box.width < 44 || box.height < 44)) {
-          found.push(`${a.textContent} is too small`);
-        }
-        if (a.scrollWidth > a.clientWidth + 1 && a.matches("button")) found.push(`${a.textContent} is cut off`);
-        for (const b of shown.slice(i + 1)) {
-          const other = boxOf(b);
-          const over =
-            Math.min(box.right, other.right) - Math.max(box.left, other.left) > 1.5 &&
-            Math.min(box.bottom, other.bottom) - Math.max(box.top, other.top) > 1.5;
-          if (over) found.push(`${a.textContent} lies over ${b.textContent}`);
-        }
-      }
-      return found;
-    });
-    expect(flaws, name).toEqual([]);
-  }
-});
+        return found;
+      });
+      expect(flaws, name).toEqual([]);
+    }
+  },
+);
 
 test("on a phone held upright, no card covers the cloud, and the cloud stays when a card says something else", async () => {
   const page = await openReady("?sample=bunny", PHONE);

@@ -144,18 +144,6 @@ test("a label is shown as long as its point is visible", async () => {
   expect(await page.locator("#marks .note, #marks .ring").count()).toBe(0);
 });
 
-test("marks do not go to the next cloud", async () => {
-  const page = await openBall();
-  const seen = await visible(page);
-  const [a, b] = await lonely(page, seen, seen);
-  await tool(page, "Measure").click();
-  for (const index of [a!, b!]) await clickPoint(page, index);
-  await page.locator("#sample").selectOption("dragon_res4");
-  await page.locator('#status[data-total="5205"]').waitFor();
-  await upToDate(page);
-  expect(await page.locator("#marks .measure").count()).toBe(0);
-});
-
 test("a double click goes to the point: it gets into the middle of the picture, at half its distance", async () => {
   const page = await openBall();
   const before = await status(page);
