@@ -1,8 +1,8 @@
 import type { Page } from "playwright-core";
 
 interface Gate {
-  /** Holds back the questions to the package's workers from this one on. The page's first worker has the number 0. */
-  hold: (from: number) => void;
+  /** Holds back the questions to the package's workers from now on. */
+  hold: () => void;
   release: () => void;
 }
 
@@ -10,44 +10,40 @@ interface Gate {
 export async function holdable(page: Page): Promise<void> {
   await page.addInitScript(() => {
     const waiting: (() => void)[] = [];
-    let first = Infinity;
-    let made = 0;
+    let isHeld = false;
     Object.assign(globalThis, {
-      hold: (from: number) => {
-        first = from;
+      hold: () => {
+        isHeld = true;
       },
       release: () => {
-        first = Infinity;
+        isHeld = false;
         for (const send of waiting.splice(0)) send();
       },
     } satisfies Gate);
     globalThis.Worker = class extends Worker {
-      readonly #number: number;
+      readonly #isAsked: boolean;
 
       constructor(script: string | URL, options?: WorkerOptions) {
         super(script, options);
-        this.#number = String(script).includes("worker-thread") ? made++ : -1;
+        this.#isAsked = String(script).includes("worker-thread");
       }
 
       override postMessage(message: unknown, options?: Transferable[] | StructuredSerializeOptions): void {
         const send = () => {
           super.postMessage(message, options as StructuredSerializeOptions);
         };
-        if (this.#number >= first) waiting.push(send);
+        if (isHeld && this.#isAsked) waiting.push(send);
         else send();
       }
     };
   });
 }
 
-/** Holds back what the page asks from now on: all of it, or only what it asks other workers than the first. */
-export async function hold(page: Page, workers: "all" | "others" = "all"): Promise<void> {
-  await page.evaluate(
-    (from) => {
-      (globalThis as unknown as Gate).hold(from);
-    },
-    workers === "all" ? 0 : 1,
-  );
+/** Holds back what the page asks from now on. */
+export async function hold(page: Page): Promise<void> {
+  await page.evaluate(() => {
+    (globalThis as unknown as Gate).hold();
+  });
 }
 
 export async function release(page: Page): Promise<void> {

@@ -166,7 +166,7 @@ test("the points of a file are drawn before the first answer, and the status has
   const page = await openPage("?src=clouds/early.ply&theme=dark", {}, async (fresh) => {
     await holdable(fresh);
     await fresh.addInitScript(() => {
-      (globalThis as unknown as { hold: (from: number) => void }).hold(0);
+      (globalThis as unknown as { hold: () => void }).hold();
     });
   });
   await expect.poll(() => page.locator("#status").textContent()).toMatch(/^Preparing early\.ply: \d+\s%\.$/);

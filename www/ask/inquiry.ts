@@ -19,7 +19,6 @@ import {
   type ViewQuestion,
   viewOf,
 } from "./question.ts";
-import { SecondCloud } from "./second-cloud.ts";
 import { askMap, askView, type ViewAnswer } from "./views.ts";
 import type { WorkerCloud } from "./worker-cloud.ts";
 
@@ -55,8 +54,6 @@ const PAUSE = 40;
 const REST = 250;
 /** A lost worker is replaced once. After that, the user decides. */
 const ONCE = { delays: [0], pause: Infinity, longPause: Infinity };
-/** Looks at a cloud with at least so many points are asked in a second worker: a draft must not wait for them. */
-const LOOKS_ASIDE_FROM = 200_000;
 
 /**
  * Keeps the answer up to date with the viewpoint and the settings. It is asked again only if something that it depends on
@@ -73,7 +70,6 @@ export class Inquiry {
   /** The cloud in its worker, also for questions that are not for the picture. */
   cloud: WorkerCloud;
   readonly #another: () => Promise<WorkerCloud>;
-  #second: SecondCloud;
   readonly #size: number;
   /** How far the answers for the viewpoint have come: see `stagesOf`. */
   readonly #refinement = new Refinement<ViewQuestion>(() => {
@@ -93,8 +89,6 @@ export class Inquiry {
       },
       lost: (isComingBack) => {
         this.#isLost = true;
-        this.#second.dispose();
-        this.#second = new SecondCloud(this.#another);
         if (isComingBack) this.#refinement.begin(this.#stages);
       },
     },
@@ -102,15 +96,15 @@ export class Inquiry {
   );
   /** The last answer from one hull. */
   #hull: TimedView | null = null;
+  /** Since when the worker can take the next question. */
   #freeSince = 0;
   #hasMaps = false;
   #upToDate = false;
 
-  /** `another` makes a second copy of the cloud, for slow questions. */
+  /** `another` makes a lost cloud again. */
   constructor(cloud: WorkerCloud, another: () => Promise<WorkerCloud>, size: number) {
     this.cloud = cloud;
     this.#another = another;
-    this.#second = new SecondCloud(another);
     this.#size = size;
   }
 
@@ -156,7 +150,7 @@ export class Inquiry {
   /** Asks a question that is not for the picture. Questions for the picture go first. */
   async aside(question: ViewQuestion): Promise<ViewAnswer> {
     const answer = await askView(this.cloud, question);
-    this.#noteFree(this.cloud);
+    this.#freeSince = performance.now();
     return answer;
   }
 
@@ -175,7 +169,6 @@ export class Inquiry {
     this.#refinement.stop();
     this.#viewFollower.stop();
     void this.cloud.points.dispose();
-    this.#second.dispose();
   }
 
   /** The answer as others are told it. */
@@ -246,7 +239,7 @@ export class Inquiry {
       async ({ options: question }) => {
         const begun = performance.now();
         const map = await askMap(this.cloud, question);
-        this.#noteFree(this.cloud);
+        this.#freeSince = performance.now();
         this.onMap({ map, viewpoint: question.viewpoint, milliseconds: performance.now() - begun });
         this.#viewFollower.answered();
       },
@@ -275,21 +268,14 @@ export class Inquiry {
     };
   }
 
-  /** From now on, the cloud in the foreground can take the next question. */
-  #noteFree(cloud: WorkerCloud): void {
-    if (cloud === this.cloud) this.#freeSince = performance.now();
-  }
-
   async #ask({ options: question, signal }: AskedStage<ViewQuestion>): Promise<TimedView> {
-    const isAside = question.method.looks > 0 && this.cloud.points.length >= LOOKS_ASIDE_FROM;
-    const cloud = isAside ? await this.#second.ready(signal) : this.cloud;
     const asked = performance.now();
-    const answer = await askView(cloud, question, signal);
-    const begun = cloud === this.cloud ? Math.max(asked, this.#freeSince) : asked;
-    this.#noteFree(cloud);
+    const answer = await askView(this.cloud, question, signal);
+    const begun = Math.max(asked, this.#freeSince);
+    this.#freeSince = performance.now();
     this.#answered = question;
     const kind = kindOf(question) as TimedView["kind"];
-    const view = { ...answer, kind, asked, milliseconds: performance.now() - begun };
+    const view = { ...answer, kind, asked, milliseconds: this.#freeSince - begun };
     if (view.kind === "operator") this.#hull = view;
     return this.told(view);
   }
