@@ -46,8 +46,7 @@ export function checkLazFormat(format: number): NonNullable<(typeof FORMATS)[num
 
 /** The number of points in each chunk, as the record of LAZ says it. Refuses points that are not as the header says. */
 function chunkSize({ format, rowBytes, records }: LasHeader, head: DataView): number {
-  const known = FORMATS[format];
-  if (!known) throw new FormatProblem(`its compressed points have format ${format}, which laz-perf cannot decompress`);
+  const known = checkLazFormat(format);
   const record = records.find(({ user, id }) => user === "laszip encoded" && id === 22_204);
   if (!record || record.length < 34) throw new FormatProblem("it does not say how its points are compressed");
   const { at, length } = record;
