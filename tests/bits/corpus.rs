@@ -32,7 +32,7 @@ use scenes::{EXTREME, KINDS};
 /// changes this number: write the one that the failure prints.
 pub const EXPECTED: (u64, u64) = (0x2468_0594_3dbd_61c9, 1415);
 
-#[allow(dead_code)] // tests/same_bits.rs asks the corpus by itself.
+#[allow(dead_code)] // `core/same_bits.rs` asks the corpus by itself.
 fn main() {
     let all = ask_all(|name, answer| println!("{name} {answer}"));
     println!("all {:016x} {} -", all.0, all.1);

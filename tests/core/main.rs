@@ -32,6 +32,10 @@ mod plane;
 mod radius;
 mod reconstruct;
 mod refusals;
+mod same_bits;
+mod scanned_clouds;
+#[path = "common/scans.rs"]
+mod scans;
 mod search;
 mod sectors;
 mod sees;

@@ -30,9 +30,9 @@ macro_rules! short {
 short! {
     oracle 6_000;
     sectors 300;
-    drafts 30;
+    drafts 15;
     boxes 20;
-    dimensions 300;
+    dimensions 150;
     camera 100;
     sees 100;
     within 100;
@@ -40,5 +40,5 @@ short! {
     invariance 300;
     parts 100;
     maps 8;
-    threads 40;
+    threads 20;
 }

