@@ -14,17 +14,12 @@ import type { IlluminationOptions, ReconstructionOptions } from "../query/querie
 import { type Calibration, calibration, type Station } from "../query/calibration.js";
 import type { Placement } from "../query/placement.js";
 import type { ViewpointOrCamera } from "../query/seats.js";
-import { type SeenBy, SeenByTask } from "../query/seen-by.js";
+import type { SeenBy } from "../query/seen-by.js";
+import { surveyQuestion } from "../query/survey-methods.js";
 import {
-  COVERAGE_OPTIONS,
   type CoverageOptions,
-  CoverageTask,
-  PLACEMENT_OPTIONS,
   type PlacementOptions,
-  PlacementTask,
   readListener,
-  readPlacing,
-  readSurvey,
   SURVEY,
   type SurveyQuestion,
 } from "../query/surveys.js";
@@ -225,9 +220,7 @@ export class PointCloud {
    * @throws HprError `option` also for `draft` and `scores`; otherwise as {@link PointCloud.visibleFrom}.
    */
   coverage(viewpoints: readonly ViewpointOrCamera[], options?: CoverageOptions): Uint32Array {
-    return this[SURVEY]("coverage", options, COVERAGE_OPTIONS, (dimension, given, progress) => {
-      return new CoverageTask(readSurvey(dimension, viewpoints, given, "coverage"), progress);
-    });
+    return this[SURVEY](...surveyQuestion("coverage", viewpoints, options));
   }
 
   /**
@@ -238,9 +231,7 @@ export class PointCloud {
    *   {@link PointCloud.visibleFromCamera}.
    */
   seenBy(cameras: readonly Camera[], options?: CoverageOptions): SeenBy {
-    return this[SURVEY]("seenBy", options, COVERAGE_OPTIONS, (dimension, given, progress) => {
-      return new SeenByTask(readSurvey(dimension, cameras, given, "seenBy"), progress);
-    });
+    return this[SURVEY](...surveyQuestion("seenBy", cameras, options));
   }
 
   /**
@@ -251,10 +242,7 @@ export class PointCloud {
    * @throws HprError `option` also for `draft` and `scores`; otherwise as {@link PointCloud.visibleFrom}.
    */
   placeViewpoints(candidates: readonly ViewpointOrCamera[], options?: PlacementOptions): Placement {
-    return this[SURVEY]("placeViewpoints", options, PLACEMENT_OPTIONS, (dimension, given, progress) => {
-      const survey = readSurvey(dimension, candidates, given, "placeViewpoints");
-      return new PlacementTask(survey, readPlacing(given), progress);
-    });
+    return this[SURVEY](...surveyQuestion("placeViewpoints", candidates, options));
   }
 
   /**

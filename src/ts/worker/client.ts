@@ -18,22 +18,8 @@ import {
 import type { Place } from "../query/place.js";
 import { isFloatArray, type Positions, readIndices, readPositions, type Viewpoint } from "../query/positions.js";
 import { type Calibration, calibration, type Station } from "../query/calibration.js";
-import type { Placement } from "../query/placement.js";
-import type { Camera } from "../query/camera.js";
-import type { ViewpointOrCamera } from "../query/seats.js";
-import { type SeenBy, SeenByTask } from "../query/seen-by.js";
-import {
-  COVERAGE_OPTIONS,
-  type CoverageOptions,
-  CoverageTask,
-  PLACEMENT_OPTIONS,
-  type PlacementOptions,
-  PlacementTask,
-  readPlacing,
-  readSurvey,
-  SURVEY,
-  type SurveyQuestion,
-} from "../query/surveys.js";
+import { type SurveyName, surveyQuestion, SURVEYS } from "../query/survey-methods.js";
+import { SURVEY, type SurveyQuestion } from "../query/surveys.js";
 import type { Panorama, PanoramaOptions } from "../query/panorama-options.js";
 import type { RadiusRule, VisibilityOptions } from "../query/view-options.js";
 import type { PointCloud } from "../cloud/cloud.js";
@@ -103,9 +89,12 @@ type Promised<Method> = Method extends (...args: [...infer Head, (infer Options)
   ? (...args: [...Head, options?: Options & RequestOptions]) => Promise<Answer>
   : never;
 
-/** The questions to a cloud, as promises. Requests are answered in order. */
+/**
+ * The questions to a cloud, as promises. Requests are answered in order. The workers share the viewpoints of `coverage`,
+ * `seenBy` and `placeViewpoints`; if the signal aborts, no further one is asked.
+ */
 export type PromisedQuestions = {
-  [Name in Exclude<MethodName, "autoRadius" | "panorama">]: Promised<PointCloud[Name]>;
+  [Name in Exclude<MethodName, "autoRadius" | "panorama"> | SurveyName]: Promised<PointCloud[Name]>;
 } & {
   /** What stands in each direction around a viewpoint; see `PointCloud.panorama`. */
   panorama(viewpoint: Viewpoint, options: PanoramaOptions & RequestOptions): Promise<Panorama>;
@@ -138,9 +127,11 @@ export class WorkerPointCloud {
   static {
     addDisposeSymbol(this.prototype);
     addTag(this.prototype, "WorkerPointCloud");
-    for (const name of Object.keys(METHODS) as MethodName[]) {
-      const value = function (this: WorkerPointCloud, ...args: unknown[]) {
-        return this.#ask(name, args);
+    for (const name of Object.keys({ ...METHODS, ...SURVEYS }) as (MethodName | SurveyName)[]) {
+      const value = async function (this: WorkerPointCloud, ...args: unknown[]) {
+        return name in SURVEYS
+          ? this[SURVEY](...surveyQuestion(name as SurveyName, args[0], args[1]))
+          : this.#ask(name as MethodName, args);
       };
       Object.defineProperty(this.prototype, name, { value, writable: true, configurable: true });
     }
@@ -232,49 +223,6 @@ export class WorkerPointCloud {
     const ask = ({ from, isDirection }: Place, asked: WorkerVisibilityOptions) =>
       isDirection ? this.visibleFromDirection(from, asked) : this.visibleFrom(from.slice(0, dimension), asked);
     return new ViewStream({ dimension, size: () => this.#size, ask }, options);
-  }
-
-  /**
-   * Counts how many viewpoints see each index; see `PointCloud.coverage`. The workers share the
-   * viewpoints. If the signal aborts, no further viewpoint is asked.
-   *
-   * @throws HprError (as a rejection) the same as `PointCloud.coverage`.
-   */
-  async coverage(
-    viewpoints: readonly ViewpointOrCamera[],
-    options?: CoverageOptions & RequestOptions,
-  ): Promise<Uint32Array> {
-    return this[SURVEY]("coverage", options, COVERAGE_OPTIONS, (dimension, given, progress) => {
-      return new CoverageTask(readSurvey(dimension, viewpoints, given, "coverage"), progress);
-    });
-  }
-
-  /**
-   * Which of many cameras see each point, and where; see `PointCloud.seenBy`. The workers share the
-   * cameras. If the signal aborts, no further camera is asked.
-   *
-   * @throws HprError (as a rejection) the same as `PointCloud.seenBy`.
-   */
-  async seenBy(cameras: readonly Camera[], options?: CoverageOptions & RequestOptions): Promise<SeenBy> {
-    return this[SURVEY]("seenBy", options, COVERAGE_OPTIONS, (dimension, given, progress) => {
-      return new SeenByTask(readSurvey(dimension, cameras, given, "seenBy"), progress);
-    });
-  }
-
-  /**
-   * Chooses viewpoints among candidates; see `PointCloud.placeViewpoints`. The workers share the
-   * candidates. If the signal aborts, no further candidate is asked.
-   *
-   * @throws HprError (as a rejection) the same as `PointCloud.placeViewpoints`.
-   */
-  async placeViewpoints(
-    candidates: readonly ViewpointOrCamera[],
-    options?: PlacementOptions & RequestOptions,
-  ): Promise<Placement> {
-    return this[SURVEY]("placeViewpoints", options, PLACEMENT_OPTIONS, (dimension, given, progress) => {
-      const survey = readSurvey(dimension, candidates, given, "placeViewpoints");
-      return new PlacementTask(survey, readPlacing(given), progress);
-    });
   }
 
   /**

@@ -1,0 +1,50 @@
+import type { Placement } from "./placement.js";
+import { type SeenBy, SeenByTask } from "./seen-by.js";
+import {
+  COVERAGE_OPTIONS,
+  CoverageTask,
+  PLACEMENT_OPTIONS,
+  PlacementTask,
+  readPlacing,
+  readSurvey,
+  type Survey,
+  type SurveyQuestion,
+  type SurveyTask,
+} from "./surveys.js";
+
+interface Answers {
+  coverage: Uint32Array;
+  seenBy: SeenBy;
+  placeViewpoints: Placement;
+}
+
+export type SurveyName = keyof Answers;
+
+interface Method<Answer> {
+  names: readonly string[];
+  task: (survey: Survey, given: Record<string, unknown>, progress?: (fraction: number) => void) => SurveyTask<Answer>;
+}
+
+/** The questions about many views, for `PointCloud` and for a cloud in a worker. */
+export const SURVEYS: { [Name in SurveyName]: Method<Answers[Name]> } = {
+  coverage: { names: COVERAGE_OPTIONS, task: (survey, _, progress) => new CoverageTask(survey, progress) },
+  seenBy: { names: COVERAGE_OPTIONS, task: (survey, _, progress) => new SeenByTask(survey, progress) },
+  placeViewpoints: {
+    names: PLACEMENT_OPTIONS,
+    task: (survey, given, progress) => new PlacementTask(survey, readPlacing(given), progress),
+  },
+};
+
+export function surveyQuestion<Name extends SurveyName>(
+  name: Name,
+  viewpoints: unknown,
+  options: unknown,
+): SurveyQuestion<Answers[Name]> {
+  const { names, task } = SURVEYS[name];
+  return [
+    name,
+    options,
+    names,
+    (dimension, given, progress) => task(readSurvey(dimension, viewpoints, given, name), given, progress),
+  ];
+}
