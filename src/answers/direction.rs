@@ -59,7 +59,7 @@ impl PointCloud {
         let ahead = normalized(direction).ok_or(Error::Direction { direction })?;
         let cloud = self.part(None, options)?;
         if let Some(count) = looks(options)? {
-            let mut memory = ViewMemory::default();
+            let mut memory = ViewMemory::new();
             let projection = Projection::Parallel(ahead);
             return cloud.seen_by_looks(&mut memory, projection, count, options);
         }

@@ -22,11 +22,17 @@ pub(crate) struct ViewMemory {
 }
 
 impl ViewMemory {
+    /// Not inlined: all these fields would be written by each caller's own code.
+    #[inline(never)]
+    pub(crate) fn new() -> Self {
+        Self::default()
+    }
+
     /// A memory that knows only what this one knows of noise.
     pub(crate) fn sibling(&self) -> Self {
         Self {
             survey: self.survey.clone(),
-            ..Self::default()
+            ..Self::new()
         }
     }
 

@@ -38,7 +38,7 @@ impl PointCloud {
     pub fn observer(&self) -> Observer<'_> {
         Observer {
             cloud: self,
-            memory: ViewMemory::default(),
+            memory: ViewMemory::new(),
         }
     }
 }

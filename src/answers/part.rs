@@ -142,7 +142,7 @@ impl PointCloud {
         }
         let count = seats.len();
         let for_each = threads / count.max(1);
-        let mut memory = ViewMemory::default();
+        let mut memory = ViewMemory::new();
         let part = if options.has_distance() && count > 0 {
             None
         } else {

@@ -57,7 +57,7 @@ impl PointCloud {
         options: &Options,
         sector: Sector,
     ) -> Result<Visibility, Error> {
-        self.visible_in_sector_with(&mut ViewMemory::default(), viewpoint, options, sector)
+        self.visible_in_sector_with(&mut ViewMemory::new(), viewpoint, options, sector)
     }
 
     /// [`PointCloud::visible_in_sector`] with the memory of earlier views.
@@ -164,7 +164,7 @@ impl PointCloud {
                 coarse = distance;
             }
         }
-        let mut memory = Memory::default();
+        let mut memory = Memory::new();
         let flip = Flip::new(viewpoint, Kernel::Spherical { radius: coarse });
         hull::mark_visible(&points, &[], &flip, &mut memory)?;
         Ok(memory.take_visible())

@@ -203,7 +203,7 @@ impl PointCloud {
         viewpoint: [f64; 3],
         options: &Options,
     ) -> Result<Visibility, Error> {
-        self.visible_from_with(&mut ViewMemory::default(), viewpoint, options)
+        self.visible_from_with(&mut ViewMemory::new(), viewpoint, options)
     }
 
     /// [`PointCloud::visible_from`] with the memory of earlier views.
@@ -391,7 +391,7 @@ impl Threads<'_> {
     ) -> Result<Visibility, Error> {
         options.check(QuestionKind::View)?;
         let part = self.part(Some(viewpoint), options)?;
-        part.seen_by(self.count, &mut ViewMemory::default(), viewpoint, options)
+        part.seen_by(self.count, &mut ViewMemory::new(), viewpoint, options)
     }
 }
 

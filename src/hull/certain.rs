@@ -48,7 +48,7 @@ pub(crate) fn certain_among(
     boxes: &[[[f64; 3]; 2]],
 ) -> Result<Certain, OutOfMemory> {
     let flip = flip.rescaled_for(points);
-    let mut memory = Memory::default();
+    let mut memory = Memory::new();
     mark_visible(points, blocks, &flip, &mut memory)?;
     let flipped = Flipped::of(points, blocks, &flip);
     let mut is_open: Vec<bool> = filled(points.len(), false)?;

@@ -43,7 +43,7 @@ impl KeptHull {
     /// none.
     #[inline(never)]
     pub(crate) fn of(points: &Points, blocks: &[Sphere], flip: &Flip) -> Result<Self, OutOfMemory> {
-        let mut memory = Memory::default();
+        let mut memory = Memory::new();
         let flip = flip.rescaled_for(points);
         mark_visible(points, blocks, &flip, &mut memory)?;
         let mut kept = Self {

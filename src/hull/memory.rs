@@ -50,6 +50,12 @@ pub(super) struct LastRound {
 }
 
 impl Memory {
+    /// Not inlined: all these fields would be written by each caller's own code.
+    #[inline(never)]
+    pub(crate) fn new() -> Self {
+        Self::default()
+    }
+
     /// Which of the points were visible.
     pub(crate) fn visible(&self) -> &[bool] {
         &self.visible

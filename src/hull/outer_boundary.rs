@@ -171,7 +171,7 @@ pub(super) fn seed(flipped: &Flipped) -> Option<[(u32, DVec3); 3]> {
 
 /// Whether each of `points` is visible, for a single view.
 pub(crate) fn visible_once(points: &Points, flip: &Flip) -> Result<Vec<bool>, OutOfMemory> {
-    let mut memory = Memory::default();
+    let mut memory = Memory::new();
     mark_visible(points, &[], flip, &mut memory)?;
     Ok(memory.visible)
 }
@@ -183,7 +183,7 @@ pub(crate) fn triangulate_visible(
     points: &Points,
     flip: &Flip,
 ) -> Result<(Vec<bool>, Vec<[u32; 3]>), OutOfMemory> {
-    let mut memory = Memory::default();
+    let mut memory = Memory::new();
     mark_visible(points, &[], flip, &mut memory)?;
     let mut triangles = Vec::new();
     if memory.holds_hull() {

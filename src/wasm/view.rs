@@ -26,7 +26,7 @@ pub fn visible_from(
     // The operator alone has no draft to go on from. New room takes at most 2 % longer.
     let seen = with_cloud(handle, |cloud| {
         view.check(QuestionKind::View)?;
-        cloud.seen_by_hull(1, &mut Memory::default(), [x, y, z], &view)
+        cloud.seen_by_hull(1, &mut Memory::new(), [x, y, z], &view)
     });
     answered(seen, options)
 }

@@ -83,7 +83,7 @@ impl PointCloud {
         options: &Options,
         panorama: &PanoramaOptions,
     ) -> Result<Panorama, Error> {
-        self.panorama_with(&mut ViewMemory::default(), viewpoint, options, panorama)
+        self.panorama_with(&mut ViewMemory::new(), viewpoint, options, panorama)
     }
 
     /// [`PointCloud::panorama`] with the memory of earlier views.
@@ -131,7 +131,7 @@ impl Panorama {
         let points = &shown.points;
         let radius = (FLAT * farthest).min(0.5 * f64::MAX);
         let flip = Flip::new(viewpoint, Kernel::Spherical { radius }).rescaled_for(points);
-        let mut memory = hull::Memory::default();
+        let mut memory = hull::Memory::new();
         hull::mark_all(points, &flip, &mut memory)?;
         let Some(mut faces) = memory.outer_faces(points, &flip, farthest)? else {
             return Ok(());

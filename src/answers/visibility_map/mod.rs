@@ -70,7 +70,7 @@ impl PointCloud {
         options: &Options,
         map: &MapOptions,
     ) -> Result<VisibilityMap, Error> {
-        self.visibility_map_with(&mut ViewMemory::default(), viewpoint, options, map)
+        self.visibility_map_with(&mut ViewMemory::new(), viewpoint, options, map)
     }
 
     #[inline(never)]

@@ -11,7 +11,7 @@ use crate::hull::{Memory, mark_visible};
 /// Compares what the map hides with the answer. Returns the share of the hidden points that it
 /// hides.
 fn compare(points: &Points, blocks: &[Sphere], flip: &Flip, wanted: &dyn Fn(u32) -> bool) -> f64 {
-    let mut memory = Memory::default();
+    let mut memory = Memory::new();
     mark_visible(points, &[], flip, &mut memory).unwrap();
     let flipped = Flipped::of(points, blocks, flip);
     let mut map = DepthMap::default();

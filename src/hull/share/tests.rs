@@ -72,7 +72,7 @@ fn no_ring_is_looked_for_behind_a_near_face() {
     let flipped = Flipped::of(&points, &[], &flip);
     let mut doubtful = 0;
     for number in 0..7 {
-        let mut memory = Memory::default();
+        let mut memory = Memory::new();
         let division = division(&points, [0.0; 3], 10.0, [number, 7]);
         let mut share = near_share(&mut memory, &flipped, division);
         for corner in corners.clone() {
@@ -98,7 +98,7 @@ fn rings_are_made_of_clear_faces() {
         let flip = Flip::new(viewpoint, Kernel::Spherical { radius: 40.0 });
         let flipped = Flipped::of(&points, &[], &flip);
         for number in 0..3 {
-            let mut memory = Memory::default();
+            let mut memory = Memory::new();
             let division = division(&points, viewpoint, 40.0, [number, 3]);
             let mut share = near_share(&mut memory, &flipped, division);
             share.open_own_vertices().unwrap();
