@@ -6,14 +6,13 @@ use core::cell::RefCell;
 use std::thread_local;
 
 use js_sys::Uint8Array;
-use serde::Serialize;
 use wasm_bindgen::prelude::*;
 
 use crate::answers::memory::ViewMemory;
 use crate::base::allocation::push;
 use crate::base::build::FULL;
-use crate::wasm::failure::Failure;
-use crate::wasm::objects::to_js;
+use crate::wasm::failure::disposed;
+use crate::wasm::objects::numbered;
 use crate::wasm::options::ViewOptions;
 use crate::wasm::transfer::copy_in_bytes;
 use crate::{Error, Options, PointCloud};
@@ -43,52 +42,36 @@ struct LastView {
     memory: ViewMemory,
 }
 
-#[derive(Serialize)]
-pub(super) struct CloudInfo {
-    handle: f64,
-    length: f64,
-    skipped: f64,
-    spacing: f64,
-}
-
-impl CloudInfo {
-    fn new(handle: u32, cloud: &Cloud) -> Result<Self, Error> {
-        let (length, skipped, spacing) = match cloud {
-            Cloud::Space(cloud) => (cloud.len(), cloud.skipped(), cloud.spacing()?),
-            #[cfg(feature = "wasm")]
-            Cloud::Hyper(cloud) => (cloud.len(), cloud.skipped(), cloud.spacing()),
-            #[cfg(feature = "wasm")]
-            Cloud::Horizon(_) => (0, 0, 0.0),
-        };
-        Ok(Self {
-            handle: f64::from(handle),
-            length: length as f64,
-            skipped: skipped as f64,
-            spacing,
-        })
-    }
+/// The number and the size of a cloud.
+fn info(handle: u32, cloud: &Cloud) -> Result<JsValue, Error> {
+    let (length, skipped, spacing) = match cloud {
+        Cloud::Space(cloud) => (cloud.len(), cloud.skipped(), cloud.spacing()?),
+        #[cfg(feature = "wasm")]
+        Cloud::Hyper(cloud) => (cloud.len(), cloud.skipped(), cloud.spacing()),
+        #[cfg(feature = "wasm")]
+        Cloud::Horizon(_) => (0, 0, 0.0),
+    };
+    Ok(numbered(&[
+        ("handle", f64::from(handle)),
+        ("length", length as f64),
+        ("skipped", skipped as f64),
+        ("spacing", spacing),
+    ]))
 }
 
 /// Keeps a cloud that was not refused.
 pub(super) fn created(made: Result<Cloud, Error>) -> Result<JsValue, JsValue> {
-    let kept = made.and_then(|cloud| {
-        CLOUDS.with_borrow_mut(|clouds| {
-            let free = clouds.iter().position(Option::is_none);
-            let slot = free.unwrap_or(clouds.len());
-            if free.is_none() {
-                push(clouds, None)?;
-            }
-            let info = CloudInfo::new(slot as u32, &cloud)?;
-            clouds[slot] = Some(cloud);
-            Ok(info)
-        })
-    });
-    Ok(to_js(&kept.map_err(Failure::from)?))
-}
-
-/// The size of a cloud whose change was not refused.
-pub(super) fn resized(changed: Result<CloudInfo, Failure>) -> Result<JsValue, JsValue> {
-    Ok(to_js(&changed?))
+    let cloud = made?;
+    CLOUDS.with_borrow_mut(|clouds| {
+        let free = clouds.iter().position(Option::is_none);
+        let slot = free.unwrap_or(clouds.len());
+        if free.is_none() {
+            push(clouds, None).map_err(Error::from)?;
+        }
+        let info = info(slot as u32, &cloud)?;
+        clouds[slot] = Some(cloud);
+        Ok(info)
+    })
 }
 
 /// Frees a cloud; its number may be given to another one afterwards.
@@ -105,10 +88,10 @@ pub fn free_cloud(handle: u32) {
 pub(super) fn with_cloud<T>(
     handle: u32,
     query: impl FnOnce(&PointCloud) -> Result<T, Error>,
-) -> Result<T, Failure> {
+) -> Result<T, JsValue> {
     CLOUDS.with_borrow(|clouds| match clouds.get(handle as usize) {
-        Some(Some(Cloud::Space(cloud))) => query(cloud).map_err(Failure::from),
-        _ => Err(Failure::DISPOSED),
+        Some(Some(Cloud::Space(cloud))) => query(cloud).map_err(JsValue::from),
+        _ => Err(disposed()),
     })
 }
 
@@ -121,7 +104,7 @@ pub(super) fn with_view<T>(
     choices: &ViewOptions,
     options: &Options,
     query: impl FnOnce(&PointCloud) -> Result<T, Error>,
-) -> Result<T, Failure> {
+) -> Result<T, JsValue> {
     let mask = choices.mask();
     let numbers = options.denoise.or(options.vote).or(options.sample);
     let is_chosen = mask.is_some() || options.within.is_some();
@@ -135,12 +118,11 @@ pub(super) fn with_view<T>(
 #[cfg(feature = "wasm")]
 #[wasm_bindgen]
 pub fn noise(handle: u32) -> Result<f64, JsValue> {
-    let noise = CLOUDS.with_borrow(|clouds| match clouds.get(handle as usize) {
-        Some(Some(Cloud::Space(cloud))) => cloud.noise().map_err(Failure::from),
+    CLOUDS.with_borrow(|clouds| match clouds.get(handle as usize) {
+        Some(Some(Cloud::Space(cloud))) => cloud.noise().map_err(JsValue::from),
         Some(Some(_)) => Ok(0.0),
-        _ => Err(Failure::DISPOSED),
-    });
-    Ok(noise?)
+        _ => Err(disposed()),
+    })
 }
 
 /// The cloud, or the part of it that the last mask left.
@@ -157,7 +139,7 @@ fn prepare(
     viewpoint: Option<[f64; 3]>,
     mask: Option<&Uint8Array>,
     options: &Options,
-) -> Result<(), Failure> {
+) -> Result<(), JsValue> {
     CLOUDS.with_borrow_mut(|clouds| match clouds.get_mut(handle as usize) {
         Some(Some(Cloud::Space(cloud))) => {
             if let Some(mask) = mask {
@@ -172,10 +154,10 @@ fn prepare(
             };
             match cloud.keep_part(viewpoint, options) {
                 Ok(()) | Err(Error::OutOfMemory) => Ok(()),
-                Err(refused) => Err(Failure::from(refused)),
+                Err(refused) => Err(refused.into()),
             }
         }
-        _ => Err(Failure::DISPOSED),
+        _ => Err(disposed()),
     })
 }
 
@@ -192,10 +174,10 @@ pub(super) fn is_hyper(handle: u32) -> bool {
 pub(super) fn with_hyper<T>(
     handle: u32,
     query: impl FnOnce(&PointCloudNd) -> Result<T, Error>,
-) -> Result<T, Failure> {
+) -> Result<T, JsValue> {
     CLOUDS.with_borrow(|clouds| match clouds.get(handle as usize) {
-        Some(Some(Cloud::Hyper(cloud))) => query(cloud).map_err(Failure::from),
-        _ => Err(Failure::DISPOSED),
+        Some(Some(Cloud::Hyper(cloud))) => query(cloud).map_err(JsValue::from),
+        _ => Err(disposed()),
     })
 }
 
@@ -203,10 +185,10 @@ pub(super) fn with_hyper<T>(
 pub(super) fn with_horizon<T>(
     handle: u32,
     query: impl FnOnce(&Horizon) -> Result<T, Error>,
-) -> Result<T, Failure> {
+) -> Result<T, JsValue> {
     CLOUDS.with_borrow(|clouds| match clouds.get(handle as usize) {
-        Some(Some(Cloud::Horizon(horizon))) => query(horizon).map_err(Failure::from),
-        _ => Err(Failure::DISPOSED),
+        Some(Some(Cloud::Horizon(horizon))) => query(horizon).map_err(JsValue::from),
+        _ => Err(disposed()),
     })
 }
 
@@ -225,7 +207,7 @@ fn memory_for(last: &mut Option<LastView>, handle: u32, masked: bool) -> &mut Vi
     let last = last.get_or_insert_with(|| LastView {
         handle,
         masked,
-        memory: ViewMemory::default(),
+        memory: ViewMemory::new(),
     });
     if (last.handle, last.masked) != (handle, masked) {
         last.memory.forget();
@@ -250,12 +232,12 @@ fn forget(handle: u32) {
 pub(super) fn change_any(
     handle: u32,
     change: &mut dyn FnMut(&mut Cloud) -> Result<(), Error>,
-) -> Result<CloudInfo, Failure> {
+) -> Result<JsValue, JsValue> {
     forget(handle);
     CLOUDS.with_borrow_mut(|clouds| {
         let cloud = clouds.get_mut(handle as usize).and_then(Option::as_mut);
-        let cloud = cloud.ok_or(Failure::DISPOSED)?;
+        let cloud = cloud.ok_or_else(disposed)?;
         change(cloud)?;
-        Ok(CloudInfo::new(handle, cloud)?)
+        Ok(info(handle, cloud)?)
     })
 }

@@ -1,35 +1,30 @@
 //! An error, as JavaScript receives it. JavaScript words the message
 //! (src/ts/instance/failure.ts): the formatting of numbers alone would add 30 kB of wasm.
 
-use serde::Serialize;
 use wasm_bindgen::JsValue;
 
-use crate::wasm::objects::to_js;
+use crate::wasm::objects::{list, object};
 use crate::{Error, MAX_POINTS};
 
-/// A refusal: its code, and the option and the numbers that its message names.
-#[derive(Serialize)]
-pub(super) struct Failure {
-    code: &'static str,
-    problem: &'static str,
-    option: &'static str,
-    /// Another option, or what is wanted of this one.
-    other: &'static str,
-    numbers: [f64; 3],
+/// The number does not belong to a cloud, or its cloud was freed.
+#[cold]
+pub(super) fn disposed() -> JsValue {
+    failure(["disposed", "disposed", "", ""], &[0.0; 3])
 }
 
-impl Failure {
-    /// The number does not belong to a cloud, or its cloud was freed.
-    pub(super) const DISPOSED: Self = Self {
-        code: "disposed",
-        problem: "disposed",
-        option: "",
-        other: "",
-        numbers: [0.0; 3],
-    };
+/// A refusal: its code, its problem, and the option and the numbers that its message names. `other`
+/// is another option, or what is wanted of this one.
+fn failure([code, problem, option, other]: [&str; 4], numbers: &[f64; 3]) -> JsValue {
+    object(&[
+        ("code", &code.into()),
+        ("problem", &problem.into()),
+        ("option", &option.into()),
+        ("other", &other.into()),
+        ("numbers", &list(numbers)),
+    ])
 }
 
-impl From<Error> for Failure {
+impl From<Error> for JsValue {
     #[cold]
     #[inline(never)]
     fn from(error: Error) -> Self {
@@ -104,20 +99,6 @@ impl From<Error> for Failure {
                 ("positionsLength", [len as f64, dimension as f64, 0.0])
             }
         };
-        Self {
-            code: error.code(),
-            problem,
-            option: named,
-            other,
-            numbers,
-        }
-    }
-}
-
-impl From<Failure> for JsValue {
-    #[cold]
-    #[inline(never)]
-    fn from(failure: Failure) -> Self {
-        to_js(&failure)
+        failure([error.code(), problem, named, other], &numbers)
     }
 }

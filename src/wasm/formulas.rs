@@ -3,7 +3,6 @@
 use js_sys::Float64Array;
 use wasm_bindgen::prelude::*;
 
-use crate::wasm::answer::refused;
 use crate::{permissible_curvature, radius_bound, ring_of_viewpoints};
 
 /// Fills `ring`, three numbers a viewpoint, with viewpoints around `viewpoint`, on a circle
@@ -19,7 +18,7 @@ pub fn ring(
     viewpoint.copy_to(&mut from);
     target.copy_to(&mut to);
     let count = ring.length() as usize / 3;
-    let places = ring_of_viewpoints(from, to, count, fraction).map_err(refused)?;
+    let places = ring_of_viewpoints(from, to, count, fraction)?;
     ring.copy_from(places.as_flattened());
     Ok(())
 }
@@ -27,11 +26,11 @@ pub fn ring(
 /// The bound of Lemma 4.3.
 #[wasm_bindgen(js_name = permissibleCurvature)]
 pub fn curvature(radius: f64, r: f64, beta: f64) -> Result<f64, JsValue> {
-    permissible_curvature(radius, r, beta).map_err(refused)
+    Ok(permissible_curvature(radius, r, beta)?)
 }
 
 /// The radius above which the back of a body shows through its front.
 #[wasm_bindgen(js_name = radiusBound)]
 pub fn bound(thickness: f64, distance: f64, spacing: f64) -> Result<f64, JsValue> {
-    radius_bound(thickness, distance, spacing).map_err(refused)
+    Ok(radius_bound(thickness, distance, spacing)?)
 }

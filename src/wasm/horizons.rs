@@ -24,10 +24,10 @@ pub fn screen(
     positions: &Coordinates,
     options: &ViewOptions,
 ) -> Result<Uint32Array, JsValue> {
-    Ok(with_horizon(handle, |horizon| {
+    with_horizon(handle, |horizon| {
         let kept = horizon.not_hidden(points(positions)?.as_given())?;
         copy_out(&kept, options)
-    })?)
+    })
 }
 
 /// Whether everything in a box is certainly hidden. `corners` holds its least and its largest x, y, z.
@@ -35,15 +35,13 @@ pub fn screen(
 pub fn hides_box(handle: u32, corners: &Float64Array) -> Result<bool, JsValue> {
     let mut own = [[0.0; 3]; 2];
     corners.copy_to(own.as_flattened_mut());
-    Ok(with_horizon(handle, |horizon| {
-        horizon.hides_box(own[0], own[1])
-    })?)
+    with_horizon(handle, |horizon| horizon.hides_box(own[0], own[1]))
 }
 
 /// The points of the horizon that are visible among them: x, y, z of each.
 #[wasm_bindgen(js_name = horizonPoints)]
 pub fn horizon_points(handle: u32, options: &ViewOptions) -> Result<Float64Array, JsValue> {
-    Ok(with_horizon(handle, |horizon| {
+    with_horizon(handle, |horizon| {
         copy_out_doubles(horizon.visible()?.as_flattened(), options)
-    })?)
+    })
 }

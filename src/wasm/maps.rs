@@ -1,23 +1,13 @@
 //! Maps of directions.
 
-use js_sys::{Float32Array, Float64Array};
-use serde::Serialize;
+use js_sys::Float64Array;
 use wasm_bindgen::prelude::*;
 
 use crate::MapOptions;
 use crate::wasm::clouds::{with_memory, with_view};
-use crate::wasm::objects::to_js;
+use crate::wasm::objects::{list, object};
 use crate::wasm::options::ViewOptions;
 use crate::wasm::transfer::copy_out_singles;
-
-#[derive(Serialize)]
-struct Map {
-    #[serde(with = "serde_wasm_bindgen::preserve")]
-    data: Float32Array,
-    center: [f64; 3],
-    origin: [f64; 3],
-    numbers: [f64; 4],
-}
 
 /// A map of directions around (x, y, z). `map` holds the numbers of points and of corners, a direction
 /// and its angle, and an origin. A number of 0 stands for the default, an angle of 0 stands for all directions, and an origin of infinity
@@ -36,7 +26,7 @@ pub fn visibility_map(
     let mut numbers = [0.0; 9];
     map.copy_to(&mut numbers);
     let [points, corners, a, b, c, angle, origin @ ..] = numbers;
-    let made = with_view(handle, Some([x, y, z]), options, &view, |cloud| {
+    with_view(handle, Some([x, y, z]), options, &view, |cloud| {
         let usual = MapOptions::default();
         let size = |given: f64, usual| if given == 0.0 { usual } else { given as usize };
         let choices = MapOptions {
@@ -47,13 +37,12 @@ pub fn visibility_map(
         };
         with_memory(handle, masked, |memory| {
             let made = cloud.visibility_map_with(memory, [x, y, z], &view, &choices)?;
-            Ok(Map {
-                data: copy_out_singles(made.data(), options)?,
-                center: cloud.middle(),
-                origin: made.origin(),
-                numbers: made.numbers().map(f64::from),
-            })
+            Ok(object(&[
+                ("data", &copy_out_singles(made.data(), options)?.into()),
+                ("center", &list(&cloud.middle())),
+                ("origin", &list(&made.origin())),
+                ("numbers", &list(&made.numbers().map(f64::from))),
+            ]))
         })
-    })?;
-    Ok(to_js(&made))
+    })
 }

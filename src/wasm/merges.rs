@@ -4,7 +4,6 @@ use js_sys::Uint32Array;
 use wasm_bindgen::prelude::*;
 
 use crate::answers::merge::{Ids, merge};
-use crate::wasm::failure::Failure;
 use crate::wasm::options::ViewOptions;
 use crate::wasm::transfer::{Coordinates, copy_in_integers, copy_out, points};
 
@@ -19,11 +18,8 @@ pub fn merge_visible(
     options: &ViewOptions,
 ) -> Result<Uint32Array, JsValue> {
     let view = options.read();
-    let merged = points(positions).and_then(|positions| {
-        let ids = copy_in_integers(ids)?;
-        let part = |_| (positions.as_given(), Ids::Short(&ids));
-        let seen = merge(1, &part, [x, y, z], &view)?;
-        copy_out(&seen, options)
-    });
-    Ok(merged.map_err(Failure::from)?)
+    let (positions, ids) = (points(positions)?, copy_in_integers(ids)?);
+    let part = |_| (positions.as_given(), Ids::Short(&ids));
+    let seen = merge(1, &part, [x, y, z], &view)?;
+    Ok(copy_out(&seen, options)?)
 }

@@ -1,18 +1,42 @@
-//! Structs as JavaScript objects.
+//! JavaScript objects, made field by field.
 
-use serde::Serialize;
-use serde_wasm_bindgen::Serializer;
 use wasm_bindgen::prelude::*;
 
-pub(super) fn to_js(value: &impl Serialize) -> JsValue {
-    /// `flatten` writes a struct as a map of names. Otherwise serde-wasm-bindgen keeps names in a
-    /// hash map, and the wasm is 0.8 kB larger.
-    #[derive(Serialize)]
-    struct Object<T> {
-        #[serde(flatten)]
-        fields: T,
+#[wasm_bindgen]
+extern "C" {
+    #[wasm_bindgen(js_name = Object)]
+    type Fields;
+    #[wasm_bindgen(constructor, js_class = "Object")]
+    fn new() -> Fields;
+    #[wasm_bindgen(method, structural, indexing_setter)]
+    fn set(this: &Fields, name: &str, value: &JsValue);
+}
+
+#[inline(never)]
+pub(super) fn object(fields: &[(&str, &JsValue)]) -> JsValue {
+    let object = Fields::new();
+    for (name, value) in fields {
+        object.set(name, value);
     }
-    let serializer = Serializer::new().serialize_maps_as_objects(true);
-    let object = Object { fields: value };
-    object.serialize(&serializer).unwrap_or_else(JsValue::from)
+    object.into()
+}
+
+/// An object whose fields are numbers.
+#[inline(never)]
+pub(super) fn numbered(fields: &[(&str, f64)]) -> JsValue {
+    let object = Fields::new();
+    for (name, value) in fields {
+        object.set(name, &(*value).into());
+    }
+    object.into()
+}
+
+/// A list of numbers.
+#[inline(never)]
+pub(super) fn list(numbers: &[f64]) -> JsValue {
+    numbers
+        .iter()
+        .map(|&number| JsValue::from(number))
+        .collect::<js_sys::Array>()
+        .into()
 }

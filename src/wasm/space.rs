@@ -10,8 +10,7 @@ use wasm_bindgen::prelude::*;
 use crate::PointCloud;
 use crate::base::build::FULL;
 use crate::wasm::cloud_options::{CloudOptions, non_finite};
-use crate::wasm::clouds::{Cloud, change_any, created, resized};
-use crate::wasm::failure::Failure;
+use crate::wasm::clouds::{Cloud, change_any, created};
 #[cfg(feature = "wasm")]
 use crate::wasm::higher::hyper_cloud;
 #[cfg(feature = "wasm")]
@@ -47,24 +46,24 @@ pub fn create_cloud(
 /// Adds points to a cloud or to a horizon.
 #[wasm_bindgen(unchecked_return_type = "CloudSize")]
 pub fn append(handle: u32, positions: &Coordinates) -> Result<JsValue, JsValue> {
-    resized(change_any(handle, &mut |cloud| match cloud {
+    change_any(handle, &mut |cloud| match cloud {
         Cloud::Space(cloud) => cloud.add(points(positions)?.as_given()),
         #[cfg(feature = "wasm")]
         Cloud::Horizon(horizon) => horizon.grow(points(positions)?.as_given()),
         #[cfg(feature = "wasm")]
         Cloud::Hyper(cloud) => cloud.append(&numbers(positions.unchecked_ref())?),
-    }))
+    })
 }
 
 /// Removes points from a cloud of any dimension by their indices.
 #[wasm_bindgen(unchecked_return_type = "CloudSize")]
 pub fn remove(handle: u32, indices: &Uint32Array) -> Result<JsValue, JsValue> {
-    let indices = copy_in_integers(indices).map_err(Failure::from)?;
-    resized(change_any(handle, &mut |cloud| match cloud {
+    let indices = copy_in_integers(indices)?;
+    change_any(handle, &mut |cloud| match cloud {
         Cloud::Space(cloud) => cloud.remove(&indices),
         #[cfg(feature = "wasm")]
         Cloud::Hyper(cloud) => cloud.remove(&indices),
         #[cfg(feature = "wasm")]
         Cloud::Horizon(_) => Ok(()),
-    }))
+    })
 }

@@ -6,7 +6,6 @@ use wasm_bindgen::prelude::*;
 use crate::cloud::points::Given;
 use crate::wasm::answer::answered;
 use crate::wasm::clouds::{is_hyper, with_cloud, with_hyper, with_memory, with_view};
-use crate::wasm::failure::Failure;
 use crate::wasm::higher::seen_from_several;
 use crate::wasm::options::ViewOptions;
 use crate::wasm::transfer::{copy_in_integers, triples};
@@ -28,12 +27,11 @@ pub fn go_on(
         return Ok(true);
     }
     let view = options.read();
-    let done = with_view(handle, Some([x, y, z]), options, &view, |cloud| {
+    with_view(handle, Some([x, y, z]), options, &view, |cloud| {
         with_memory(handle, false, |memory| {
             cloud.go_on_with(memory, [x, y, z], &view, budget as usize)
         })
-    });
-    Ok(done?)
+    })
 }
 
 /// Which points of sector `number` of `count` are visible from (x, y, z)?
@@ -75,7 +73,7 @@ pub fn camera_place(camera: &Float64Array) -> Result<Float64Array, JsValue> {
     let mut numbers = [0.0; 35];
     camera.copy_to(&mut numbers);
     let camera = Camera::of(&numbers);
-    camera.lens().map_err(Failure::from)?;
+    camera.lens()?;
     Ok(Float64Array::from(camera.position().as_slice()))
 }
 
@@ -85,7 +83,7 @@ pub fn seems_inverted(handle: u32, camera: &Float64Array) -> Result<bool, JsValu
     let mut numbers = [0.0; 35];
     camera.copy_to(&mut numbers);
     let camera = Camera::of(&numbers);
-    Ok(with_cloud(handle, |cloud| cloud.seems_inverted(&camera))?)
+    with_cloud(handle, |cloud| cloud.seems_inverted(&camera))
 }
 
 /// Would points at `positions` be visible from (x, y, z), each added alone? Writes 1 or 0 for each
