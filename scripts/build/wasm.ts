@@ -70,9 +70,9 @@ const SMALL = [
   // Less than the usual limit of 225 to 325 for putting functions into their callers. Functions in the hot loops are
   // marked `#[inline]`, which keeps the usual limit for them.
   "inline-threshold=5",
-  // Values larger than a vector of three numbers are copied by one instruction. Copies of options, views and errors,
-  // number by number, would take 9 kB of 147.
-  ...["memcpy", "memmove", "memset"].map((copy) => `max-store-${copy}=3`),
+  // Values larger than two numbers are copied by one instruction. Copies of options, views and errors, number by number,
+  // would take 11 kB. Hot loops copy number by number (`one_by_one` in src/base/real.rs).
+  ...["memcpy", "memmove", "memset"].map((copy) => `max-store-${copy}=2`),
 ].map((option) => `-Cllvm-args=-${option}`);
 
 /** Flags for rustc. The wasm contains the paths of crates. The flags make them, and so the bytes, equal everywhere. */

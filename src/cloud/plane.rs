@@ -20,39 +20,39 @@ pub(crate) fn outer_product(v: DVec3) -> DMat3 {
 
 /// The unit eigenvector of the smallest eigenvalue of a symmetric matrix, by Jacobi's
 /// rotations. They need square roots only, so the bits are the same everywhere.
-pub(crate) fn least_axis(mut matrix: DMat3) -> DVec3 {
+pub(crate) fn least_axis(matrix: DMat3) -> DVec3 {
     /// Sweeps converge quadratically; a few are enough.
     const SWEEPS: usize = 12;
-    let trace = matrix.col(0)[0] + matrix.col(1)[1] + matrix.col(2)[2];
-    let negligible = 1e-18 * trace;
-    let mut axes = DMat3::IDENTITY;
+    let mut columns = [matrix.x_axis, matrix.y_axis, matrix.z_axis];
+    let negligible = 1e-18 * (columns[0].x + columns[1].y + columns[2].z);
+    let mut axes = DVec3::AXES;
     for _ in 0..SWEEPS {
         let mut done = true;
         for (i, j) in [(0, 1), (0, 2), (1, 2)] {
-            let off = matrix.col(i)[j];
+            let off = columns[i][j];
             if off.abs() <= negligible {
                 continue;
             }
             done = false;
-            let theta = (matrix.col(j)[j] - matrix.col(i)[i]) / (2.0 * off);
+            let theta = (columns[j][j] - columns[i][i]) / (2.0 * off);
             let sign = if theta < 0.0 { -1.0 } else { 1.0 };
             let tangent = sign / (theta.abs() + square_root(theta * theta + 1.0));
             let cos = 1.0 / square_root(tangent * tangent + 1.0);
             let sin = tangent * cos;
-            let mut rotation = DMat3::IDENTITY;
-            rotation.col_mut(i)[i] = cos;
-            rotation.col_mut(j)[j] = cos;
-            rotation.col_mut(j)[i] = sin;
-            rotation.col_mut(i)[j] = -sin;
-            matrix = rotation.transpose() * matrix * rotation;
-            axes *= rotation;
+            for column in &mut columns {
+                let (x, y) = (column[i], column[j]);
+                (column[i], column[j]) = (x * cos - y * sin, x * sin + y * cos);
+            }
+            for rotated in [&mut columns, &mut axes] {
+                let (x, y) = (rotated[i], rotated[j]);
+                (rotated[i], rotated[j]) = (x * cos - y * sin, x * sin + y * cos);
+            }
         }
         if done {
             break;
         }
     }
-    let values = DVec3::new(matrix.col(0)[0], matrix.col(1)[1], matrix.col(2)[2]);
-    axes.col(values.min_position())
+    axes[DVec3::new(columns[0].x, columns[1].y, columns[2].z).min_position()]
 }
 
 #[cfg(test)]

@@ -6,6 +6,7 @@ use core::ops::Range;
 use crate::base::allocation::{OutOfMemory, with_capacity};
 use crate::base::error::Error;
 use crate::base::limit::MAX_POINTS;
+use crate::base::real::one_by_one;
 
 /// A point as three coordinates, `[f32; 3]` or `[f64; 3]`. Single precision is stored as
 /// given, and widened when it is used.
@@ -69,7 +70,7 @@ impl Given<'_> {
     pub(crate) fn get(self, index: usize) -> [f64; 3] {
         match self {
             Self::Single(points) => points[index].widen(),
-            Self::Double(points) => points[index],
+            Self::Double(points) => one_by_one(points[index].into()).into(),
         }
     }
 
@@ -125,7 +126,7 @@ impl Points {
     pub(crate) fn push(&mut self, point: [f64; 3]) {
         match self {
             Self::Single(points) => points.push(point.map(|x| x as f32)),
-            Self::Double(points) => points.push(point),
+            Self::Double(points) => points.push(one_by_one(point.into()).into()),
         }
     }
 

@@ -13,6 +13,7 @@ use alloc::vec::Vec;
 use glam::DVec3;
 
 use crate::base::allocation::{OutOfMemory, reserve};
+use crate::base::real::one_by_one;
 use crate::hull::dual_plane::{Plane, Spoke};
 use crate::hull::predicates::{Sign, side_of_face, side_of_origin};
 use crate::hull::topology::{Face, FaceId, Surface, Vertex};
@@ -48,7 +49,7 @@ impl Vertices {
     #[inline]
     pub(super) fn add(&mut self, point: u32, q: DVec3) -> Result<Vertex, OutOfMemory> {
         self.reserve(1)?;
-        self.positions.push(q);
+        self.positions.push(one_by_one(q));
         self.points.push(point);
         Ok((self.positions.len() - 1) as Vertex)
     }

@@ -1,6 +1,8 @@
 //! Walking on the hull: which face does a ray from the viewpoint pierce, and is a point on
 //! this ray outside of the hull?
 
+use core::array::from_fn;
+
 use glam::DVec3;
 
 use crate::base::real::larger;
@@ -124,16 +126,15 @@ impl Hull {
         let mut face = self.surface.face(id);
         let mut height = face.data.m.dot(direction);
         for _ in 0..PATIENCE {
-            let neighbors = face.twins.map(|twin| twin.face());
-            let planes = neighbors.map(|neighbor| self.surface.face(neighbor).data);
-            let heights = planes.map(|plane| plane.m.dot(direction));
+            let beyond = |edge: usize| &self.surface.face(face.twins[edge].face()).data;
+            let heights = from_fn(|edge| beyond(edge).m.dot(direction));
             let steepest = index_of_largest(heights);
             if heights[steepest] <= height {
                 let bound = height * (1.0 + 2.0 * face.data.error + ROUNDING);
                 let certain = height > 0.0 && self.is_pierced(face, direction, height);
                 return (id, if certain { bound } else { f64::INFINITY });
             }
-            id = neighbors[steepest];
+            id = face.twins[steepest].face();
             face = self.surface.face(id);
             height = heights[steepest];
         }

@@ -7,6 +7,7 @@ use crate::base::allocation::{OutOfMemory, push};
 use crate::base::beat;
 use crate::base::bits::bits_of;
 use crate::base::build::FULL;
+use crate::base::real::one_by_one;
 use crate::flip::inversion::Flip;
 use crate::hull::angular_order::AngularOrder;
 use crate::hull::depth::DepthMap;
@@ -186,6 +187,7 @@ impl Memory {
             push(&mut self.on_boundary, index)?;
             return Ok(hint);
         };
+        let q = one_by_one(q);
         Ok(match self.hull.locate(q, hint) {
             Location::Outside(face) => self.hull.insert(index, q, face)?,
             Location::Boundary(face) => {

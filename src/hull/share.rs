@@ -39,6 +39,7 @@ use alloc::vec::Vec;
 
 use crate::base::allocation::{OutOfMemory, push, reserve};
 use crate::base::beat;
+use crate::base::real::one_by_one;
 use crate::cloud::blocks::BLOCK;
 use crate::hull::depth::DepthMap;
 use crate::hull::division::Division;
@@ -157,6 +158,7 @@ impl Share<'_> {
             self.visible[index as usize] |= own;
             return Ok(false);
         };
+        let q = one_by_one(q);
         let location = self.hull.locate(q, self.hint);
         self.hint = match location {
             Location::Outside(face) => self.hull.insert(index, q, face)?,

@@ -65,9 +65,9 @@ impl Verdicts {
                 self.decide(point, true, 1.0);
                 continue;
             };
-            let triangle = match last.take() {
-                Some((known, triangle)) if known == face => triangle,
-                _ => Triangle::of(vertices, &corners),
+            let (_, triangle) = match &mut last {
+                Some(known) if known.0 == face => known,
+                other => other.insert((face, Triangle::of(vertices, &corners))),
             };
             let place = look.place(points.get(point));
             let behind = triangle.behind(place, look.ahead);
@@ -84,7 +84,6 @@ impl Verdicts {
                     left.takes_part[numbered[corner as usize] as usize] = true;
                 }
             }
-            last = Some((face, triangle));
         }
         Ok(left)
     }
