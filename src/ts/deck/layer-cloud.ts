@@ -4,7 +4,7 @@ import { Follower, type Round } from "../follow/follower.js";
 import type { RecoveryTimes } from "../follow/recovery.js";
 import type { AnswerKind } from "../follow/refinement.js";
 import { type FollowSettings, stagesFor } from "../query/follow-options.js";
-import { isNear, type Place } from "../query/place.js";
+import type { Place } from "../query/place.js";
 import { WorkerPointCloud } from "../worker/client.js";
 import { FollowedView, see, type Seen } from "../worker/followed-view.js";
 
@@ -24,7 +24,6 @@ const ONCE: RecoveryTimes = { delays: [0], pause: Infinity, longPause: Infinity 
 export class LayerCloud {
   readonly #tell: Listener;
   readonly #view = new FollowedView(() => this.#follower?.follow());
-  #place: Place | undefined;
   #settings: FollowSettings | undefined;
   #drawsMaps = false;
   #follower: Follower | undefined;
@@ -71,25 +70,20 @@ export class LayerCloud {
    * drawn until the next answer.
    */
   want(place: Place, settings: FollowSettings, drawsMaps: boolean): boolean {
-    const isSame =
-      this.#place !== undefined &&
-      this.#settings === settings &&
-      this.#drawsMaps === drawsMaps &&
-      isNear(this.#place, place, settings.moveThreshold, this.#cloud?.spacing ?? 0);
-    if (!isSame) {
-      [this.#place, this.#settings, this.#drawsMaps] = [place, settings, drawsMaps];
+    const isMoved = this.#view.move(place, settings.moveThreshold, this.#cloud?.spacing ?? 0);
+    if (isMoved || this.#settings !== settings || this.#drawsMaps !== drawsMaps) {
+      [this.#settings, this.#drawsMaps] = [settings, drawsMaps];
       this.#begin();
     }
     const isOutdated = this.#view.isOutdated(settings.stale);
     if (isOutdated) this.#view.drawn = undefined;
-    this.#view.before = place;
     this.#follower?.follow();
     return isOutdated;
   }
 
   #begin(): void {
     if (this.#settings !== undefined) {
-      const isMapped = this.#drawsMaps && this.#place?.isDirection !== true;
+      const isMapped = this.#drawsMaps && this.#view.place?.isDirection !== true;
       this.#view.refinement.moved(stagesFor(this.#settings, this.length, isMapped));
     }
   }
@@ -105,9 +99,9 @@ export class LayerCloud {
     if (this.#unread !== undefined) {
       return this.#preparing(this.#unread);
     }
-    const [cloud, place] = [this.#cloud, this.#place];
-    const isDue = cloud !== undefined && place !== undefined && this.#view.refinement.due !== undefined;
-    return isDue ? this.#viewing(cloud, place) : undefined;
+    const cloud = this.#cloud;
+    const isDue = this.#view.place !== undefined && this.#view.refinement.due !== undefined;
+    return cloud !== undefined && isDue ? this.#viewing(cloud) : undefined;
   }
 
   #preparing(read: ReadPositions): Round<WorkerPointCloud> {
@@ -126,11 +120,10 @@ export class LayerCloud {
     };
   }
 
-  #viewing(cloud: WorkerPointCloud, place: Place): Round<Seen> {
+  #viewing(cloud: WorkerPointCloud): Round<Seen> {
     return this.#view.round(
-      place,
       this.#settings!.stale,
-      (stage) => see(cloud, place, stage),
+      (place, stage) => see(cloud, place, stage),
       (answer, kind, milliseconds) => {
         this.#follower?.answered();
         return () => {

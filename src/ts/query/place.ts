@@ -7,13 +7,17 @@ export interface Place {
 /** How far a direction of length 1 may turn for a `moveThreshold` of 1. */
 const TURN = 1e-3;
 
-/** Whether an answer for `a` need not be asked again for `b`. NaN is equal to NaN, so that it is refused only once. */
-export function isNear(a: Place, b: Place, moveThreshold: number, spacing: number): boolean {
+/**
+ * Whether an answer for `a` need not be asked again for `b`. NaN is equal to NaN, so that it is refused only once. `rounding`:
+ * how far rounding alone may move a viewpoint.
+ */
+export function isNear(a: Place, b: Place, moveThreshold: number, spacing: number, rounding = 0): boolean {
   if (a.isDirection !== b.isDirection || a.from.length !== b.from.length) {
     return false;
   }
   const share = a.isDirection ? TURN * Math.hypot(...a.from) : spacing;
-  const farthest = Number.isFinite(share) ? moveThreshold * share : 0;
+  const blur = moveThreshold * share + rounding;
+  const farthest = Number.isFinite(blur) ? blur : 0;
   return a.from.every((x, axis) => Math.abs(x - b.from[axis]!) <= farthest || Object.is(x, b.from[axis]));
 }
 

@@ -224,27 +224,21 @@ export abstract class CameraFilter<Events extends FilterEvents> extends Sender<E
     draw: (answer: Visibility, place: Place) => Told | undefined,
     drawMap: (map: VisibilityMap, place: Place) => Told | undefined,
   ): Round<Seen> {
-    const { place } = camera.eye;
-    return camera.round(
-      place,
-      this.#settings.stale,
-      (stage) => ask(place, stage),
-      (answer, kind, milliseconds) => {
-        const drawn = answer instanceof VisibilityMap ? drawMap(answer, place) : draw(answer, place);
-        if (drawn === undefined) {
-          return undefined;
-        }
-        this.follower.answered();
-        if (!isStandIn(kind)) {
-          this.readiness.resolve();
-        }
-        const change = { ...drawn, milliseconds, answer: kind, camera: camera.camera };
-        return () => {
-          this.tell();
-          this.send("change" as never, change as never);
-        };
-      },
-    );
+    return camera.round(this.#settings.stale, ask, (answer, kind, milliseconds, place) => {
+      const drawn = answer instanceof VisibilityMap ? drawMap(answer, place) : draw(answer, place);
+      if (drawn === undefined) {
+        return undefined;
+      }
+      this.follower.answered();
+      if (!isStandIn(kind)) {
+        this.readiness.resolve();
+      }
+      const change = { ...drawn, milliseconds, answer: kind, camera: camera.camera };
+      return () => {
+        this.tell();
+        this.send("change" as never, change as never);
+      };
+    });
   }
 
   /** Says once that drafts stand in for maps. */

@@ -4,17 +4,15 @@ import { isStandIn, type Stage } from "../follow/refinement.js";
 import { type FollowSettings, REST, stagesFor } from "../query/follow-options.js";
 import type { VisibilityOptions } from "../query/view-options.js";
 import { FollowedView } from "../worker/followed-view.js";
-import { Eye, requireCamera, type Space } from "./eye.js";
+import { placeOf, requireCamera, type Space } from "./eye.js";
 
 /** One camera's view of a cloud, and how far its answers have come. */
 export class FollowedCamera extends FollowedView {
   readonly camera: Camera;
-  readonly eye: Eye;
 
-  constructor(camera: Camera, eye: Eye, wake: () => void) {
+  constructor(camera: Camera, wake: () => void) {
     super(wake);
     this.camera = camera;
-    this.eye = eye;
   }
 
   /** Whether the view has moved a moment ago. */
@@ -71,12 +69,10 @@ export class FollowedCameras {
 
   /** Reads the camera's place in the object's space. Returns whether it has moved. */
   look(followed: FollowedCamera, object: Space): boolean {
-    followed.eye.look(object, followed.camera);
-    followed.before = followed.eye.isKnown ? followed.eye.place : undefined;
-    if (!followed.eye.isNew) {
+    const { place, rounding } = placeOf(followed.camera, object);
+    if (!followed.move(place, this.#settings.moveThreshold, this.#spacing, rounding)) {
       return false;
     }
-    followed.eye.note();
     followed.refinement.moved(this.#stagesFor(followed));
     return true;
   }
@@ -86,8 +82,7 @@ export class FollowedCameras {
     this.#points = points;
     this.#spacing = spacing;
     for (const followed of this.#cameras.values()) {
-      const { eye, refinement, isMoving } = followed;
-      eye.spacing = spacing;
+      const { refinement, isMoving } = followed;
       const stages = this.#stagesFor(followed);
       // At rest, the exact answer comes at once: a map would only delay it.
       refinement.begin(stages, stages[0]?.kind === "map" && !isMoving ? 1 : 0);
@@ -102,7 +97,7 @@ export class FollowedCameras {
     let first: FollowedCamera | undefined;
     for (const followed of this.#cameras.values()) {
       const isLeftOut = begunOnly && !followed.refinement.isBegun;
-      const stage = followed.eye.isKnown && !isLeftOut ? followed.refinement.due : undefined;
+      const stage = followed.place !== undefined && !isLeftOut ? followed.refinement.due : undefined;
       if (stage !== undefined && isStandIn(stage.kind)) {
         return followed;
       }
@@ -115,21 +110,19 @@ export class FollowedCameras {
 
   /** Whether the last question about each view was answered, or refused. */
   get areSettled(): boolean {
-    return [...this.#cameras.values()].every(({ refinement, eye }) => refinement.isSettled || !eye.isKnown);
+    return [...this.#cameras.values()].every(({ refinement, place }) => refinement.isSettled || place === undefined);
   }
 
   stop(): void {
     for (const { refinement } of this.#cameras.values()) refinement.stop();
   }
 
-  #stagesFor({ eye }: FollowedCamera): readonly Stage<VisibilityOptions>[] {
-    return stagesFor(this.#settings, this.#points, this.#drawsMaps() && !eye.isDirection);
+  #stagesFor({ place }: FollowedCamera): readonly Stage<VisibilityOptions>[] {
+    return stagesFor(this.#settings, this.#points, this.#drawsMaps() && place?.isDirection !== true);
   }
 
   #added(camera: Camera): FollowedCamera {
-    const eye = new Eye(this.#settings.moveThreshold);
-    eye.spacing = this.#spacing;
-    const followed = new FollowedCamera(camera, eye, this.#wake);
+    const followed = new FollowedCamera(camera, this.#wake);
     this.#cameras.set(camera, followed);
     if (this.#cameras.size > MOST) {
       const [oldest, given] = this.#cameras.entries().next().value!;

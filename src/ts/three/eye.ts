@@ -5,8 +5,6 @@ import type { Place } from "../query/place.js";
 
 /** How far a matrix may differ from a similarity: rounding to single precision makes such differences. */
 const DISTORTION = 1e-5;
-/** How far a direction of length 1 may turn for a move threshold of 1. */
-const TURN = 1e-3;
 /** The relative rounding error of world coordinates after the product of several matrices. */
 const ROUNDING = 1e-14;
 
@@ -14,100 +12,38 @@ const ROUNDING = 1e-14;
 export type Space = Pick<Object3D, "updateWorldMatrix"> & { readonly matrixWorld: Pick<Matrix4, "elements"> };
 
 /**
- * The place that a camera looks from, or the direction that it looks along, in the space of the
- * points. An answer depends on this. It is read in every frame, so nothing is allocated.
+ * The place that a camera looks from, or the direction that it looks along, in the space of the points, and how far
+ * rounding may move this place.
+ *
+ * @throws HprError `option` for a scale that is not uniform.
  */
-export class Eye {
-  /** The cloud's spacing. */
-  spacing = 0;
-  readonly #moveThreshold: number;
-  readonly #now = { known: false, direction: false, x: 0, y: 0, z: 0, blur: 0 };
-  readonly #noted = { known: false, direction: false, x: 0, y: 0, z: 0 };
+export function placeOf(camera: Camera, points: Space): { place: Place; rounding: number } {
+  points.updateWorldMatrix(true, false);
+  camera.updateWorldMatrix(true, false);
+  const [m, c] = [points.matrixWorld.elements, camera.matrixWorld.elements];
+  const scale = uniformScale(m);
+  const isDirection = isOrthographic(camera);
+  // The third axis of a camera points backwards.
+  const x = isDirection ? -c[8] : c[12] - m[12];
+  const y = isDirection ? -c[9] : c[13] - m[13];
+  const z = isDirection ? -c[10] : c[14] - m[14];
 
-  /** `moveThreshold` is the option of that name. */
-  constructor(moveThreshold: number) {
-    this.#moveThreshold = moveThreshold;
+  // Cramer's rule. The translation is subtracted first, so far-away places lose no precision.
+  const [ax, ay, az] = [m[5] * m[10] - m[6] * m[9], m[6] * m[8] - m[4] * m[10], m[4] * m[9] - m[5] * m[8]];
+  const [bx, by, bz] = [m[9] * m[2] - m[10] * m[1], m[10] * m[0] - m[8] * m[2], m[8] * m[1] - m[9] * m[0]];
+  const [cx, cy, cz] = [m[1] * m[6] - m[2] * m[5], m[2] * m[4] - m[0] * m[6], m[0] * m[5] - m[1] * m[4]];
+  const determinant = m[0] * ax + m[1] * ay + m[2] * az;
+  const from = [
+    (x * ax + y * ay + z * az) / determinant,
+    (x * bx + y * by + z * bz) / determinant,
+    (x * cx + y * cy + z * cz) / determinant,
+  ];
+  if (isDirection) {
+    const length = Math.hypot(...from);
+    return { place: { from: from.map((part) => part / length), isDirection }, rounding: 0 };
   }
-
-  /** @throws HprError `option` for a value that is not a camera, or a scale that is not uniform. */
-  look(points: Space, camera: Camera): void {
-    requireCamera(camera);
-    points.updateWorldMatrix(true, false);
-    camera.updateWorldMatrix(true, false);
-    const [m, c] = [points.matrixWorld.elements, camera.matrixWorld.elements];
-    const scale = uniformScale(m);
-    const direction = isOrthographic(camera);
-    // The third axis of a camera points backwards.
-    const x = direction ? -c[8] : c[12] - m[12];
-    const y = direction ? -c[9] : c[13] - m[13];
-    const z = direction ? -c[10] : c[14] - m[14];
-
-    // Cramer's rule. The translation is subtracted first, so far-away places lose no precision.
-    const [ax, ay, az] = [m[5] * m[10] - m[6] * m[9], m[6] * m[8] - m[4] * m[10], m[4] * m[9] - m[5] * m[8]];
-    const [bx, by, bz] = [m[9] * m[2] - m[10] * m[1], m[10] * m[0] - m[8] * m[2], m[8] * m[1] - m[9] * m[0]];
-    const [cx, cy, cz] = [m[1] * m[6] - m[2] * m[5], m[2] * m[4] - m[0] * m[6], m[0] * m[5] - m[1] * m[4]];
-    const determinant = m[0] * ax + m[1] * ay + m[2] * az;
-    const now = this.#now;
-    now.x = (x * ax + y * ay + z * az) / determinant;
-    now.y = (x * bx + y * by + z * bz) / determinant;
-    now.z = (x * cx + y * cy + z * cz) / determinant;
-    now.known = true;
-    now.direction = direction;
-    if (direction) {
-      const length = Math.hypot(now.x, now.y, now.z);
-      now.x /= length;
-      now.y /= length;
-      now.z /= length;
-      now.blur = TURN * this.#moveThreshold;
-    } else {
-      const reach =
-        Math.abs(c[12]) + Math.abs(c[13]) + Math.abs(c[14]) + Math.abs(m[12]) + Math.abs(m[13]) + Math.abs(m[14]);
-      const blur = this.#moveThreshold * this.spacing + (ROUNDING * reach) / scale;
-      now.blur = Number.isFinite(blur) ? blur : 0;
-    }
-  }
-
-  /** Whether a view was noted. */
-  get isKnown(): boolean {
-    return this.#noted.known;
-  }
-
-  /** Whether the noted view is a direction. */
-  get isDirection(): boolean {
-    return this.#noted.direction;
-  }
-
-  /** Whether the present view is not the one that was noted last. */
-  get isNew(): boolean {
-    const [now, noted] = [this.#now, this.#noted];
-    if (!now.known) {
-      return false;
-    }
-    const isSame =
-      noted.known &&
-      noted.direction === now.direction &&
-      isNear(noted.x, now.x, now.blur) &&
-      isNear(noted.y, now.y, now.blur) &&
-      isNear(noted.z, now.z, now.blur);
-    return !isSame;
-  }
-
-  /** Notes the present view: questions are about it until another one is noted. */
-  note(): void {
-    const { direction, x, y, z } = this.#now;
-    Object.assign(this.#noted, { known: true, direction, x, y, z });
-  }
-
-  /** The view that was noted. */
-  get place(): Place {
-    const { direction, x, y, z } = this.#noted;
-    return { from: [x, y, z], isDirection: direction };
-  }
-}
-
-/** NaN is equal to NaN here, so that it is refused only once. */
-function isNear(a: number, b: number, blur: number): boolean {
-  return Math.abs(a - b) <= blur || Object.is(a, b);
+  const reach = [12, 13, 14].reduce((sum, i) => sum + Math.abs(c[i]!) + Math.abs(m[i]!), 0);
+  return { place: { from, isDirection }, rounding: (ROUNDING * reach) / scale };
 }
 
 /** @throws HprError `option` if the scale from the points' space to the world is not uniform. */
