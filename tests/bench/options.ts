@@ -8,7 +8,7 @@ export const USAGE = `npm run bench -- [WHAT…] [--clouds NAME,NAME…] [--peer
 WHAT, by default --speed, --drafts and --workers:
   --speed      cold queries, natively and in Node; three.js on the same flipped points
   --drafts     early answers and samples against cold ones
-  --maps       maps of directions against cold queries, along an orbit
+  --maps       maps of directions against cold queries, along an orbit; in a worker, at 60 frames a second
   --workers    two workers against one, on a million points
   --sectors    the sectors of a view, one after another: what several cores would gain
   --octrees    the share of an octree that a view reads
