@@ -20,7 +20,7 @@ import { fromSample, type Source } from "./sources.ts";
 import type { Status } from "./status.ts";
 
 /** The parts of the page that take part when a cloud is opened. */
-interface Parts {
+export interface Parts {
   viewer: Viewer;
   store: Store;
   panel: Panel;

@@ -1,26 +1,6 @@
-import type { Message } from "../panel/message.ts";
-import type { Panel } from "../panel/panel.ts";
 import type { Signs } from "../panel/signs.ts";
-import type { Address } from "../settings/address.ts";
-import type { Store } from "../settings/store.ts";
-import type { Workshop } from "../tools/workshop.ts";
 import type { Turning } from "../view/turning.ts";
-import type { Viewer } from "../view/viewer.ts";
-import type { Notices } from "./notices.ts";
-import type { Status } from "./status.ts";
-
-interface Parts {
-  viewer: Viewer;
-  store: Store;
-  panel: Panel;
-  signs: Signs;
-  address: Address;
-  workshop: Workshop;
-  status: Status;
-  message: Message;
-  notices: Notices;
-  turning: Turning;
-}
+import type { Parts } from "./opening.ts";
 
 /** Connects the parts of the page: the viewer draws and asks, and the other parts follow it. */
 export function wire({
@@ -34,7 +14,7 @@ export function wire({
   message,
   notices,
   turning,
-}: Parts): void {
+}: Parts & { signs: Signs; turning: Turning }): void {
   viewer.onFrame = () => {
     workshop.place();
   };
