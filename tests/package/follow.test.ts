@@ -6,7 +6,6 @@ import { HprError } from "../../src/ts/base/errors.js";
 import { type Followed, Follower, type Round } from "../../src/ts/follow/follower.js";
 import { Readiness } from "../../src/ts/follow/readiness.js";
 import { Recovery, type RecoveryTimes } from "../../src/ts/follow/recovery.js";
-import { Rest } from "../../www/ask/rest.js";
 
 const LOST = new HprError("internal", "the worker died");
 
@@ -462,18 +461,6 @@ describe("a lost worker is made again", () => {
     recovery.stop();
     expect(lose(5000)).toEqual([]);
   });
-});
-
-it("rest is reached a given number of milliseconds after the last move", () => {
-  const rest = new Rest(250);
-  expect(rest.isReached).toBe(true);
-  rest.moved();
-  vi.advanceTimersByTime(200);
-  rest.moved();
-  vi.advanceTimersByTime(249);
-  expect(rest.isReached).toBe(false);
-  vi.advanceTimersByTime(1);
-  expect(rest.isReached).toBe(true);
 });
 
 describe("readiness", () => {

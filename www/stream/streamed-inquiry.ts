@@ -1,4 +1,3 @@
-import { Rest } from "../ask/rest.ts";
 import { Inquiry, type TimedView } from "../ask/inquiry.ts";
 import { isSamePlace, viewOf } from "../ask/question.ts";
 import type { WorkerCloud } from "../ask/worker-cloud.ts";
@@ -25,7 +24,7 @@ export class StreamedInquiry extends Inquiry {
   readonly #overview: Cloud;
   readonly #total: number;
   readonly #reader: OctreeReader;
-  readonly #rest = new Rest(REST);
+  #movedAt = -Infinity;
   #settings: Settings | null = null;
   #wanted: StreamView | null = null;
   /** The view that is being read, or was. */
@@ -57,7 +56,8 @@ export class StreamedInquiry extends Inquiry {
     this.#settings = settings;
     this.#want(viewpoint, settings);
     super.follow(viewpoint, overviewSettings(settings));
-    if (this.#wanted && !this.#begun && this.#rest.isReached && !super.busy) this.#begin(this.#wanted);
+    const isAtRest = performance.now() >= this.#movedAt + REST;
+    if (this.#wanted && !this.#begun && isAtRest && !super.busy) this.#begin(this.#wanted);
   }
 
   override dispose(): void {
@@ -86,7 +86,7 @@ export class StreamedInquiry extends Inquiry {
       JSON.stringify(method) === JSON.stringify(before.method);
     if (isSame || (before === null && method === null)) return;
     this.#wanted = method && { viewpoint, method };
-    this.#rest.moved();
+    this.#movedAt = performance.now();
     this.#stop();
   }
 
