@@ -141,7 +141,7 @@ impl PointCloud {
             hull::mark_sector(points, blocks, &view.flip, division, memory)?;
             Ok(memory.take_visible())
         };
-        deal(count, count, &Memory::default, &mark, &mut |_, own| {
+        deal(count, count, &Memory::new, &mark, &mut |_, own| {
             for (visible, own) in visible.iter_mut().zip(own) {
                 *visible |= own;
             }

@@ -5,7 +5,6 @@ use alloc::vec::Vec;
 use core::cell::RefCell;
 use std::thread_local;
 
-use js_sys::Uint8Array;
 use wasm_bindgen::prelude::*;
 
 use crate::answers::memory::ViewMemory;
@@ -98,6 +97,7 @@ pub(super) fn with_cloud<T>(
 /// Asks a cloud for a view, or the part of it that a mask leaves. The part, the sample and
 /// neighbors for noise handling are kept for the next view, where there is memory. `viewpoint`
 /// is the one viewpoint of the view, if there is one.
+#[cfg(feature = "wasm")]
 pub(super) fn with_view<T>(
     handle: u32,
     viewpoint: Option<[f64; 3]>,
@@ -105,13 +105,23 @@ pub(super) fn with_view<T>(
     options: &Options,
     query: impl FnOnce(&PointCloud) -> Result<T, Error>,
 ) -> Result<T, JsValue> {
-    let mask = choices.mask();
-    let numbers = options.denoise.or(options.vote).or(options.sample);
-    let is_chosen = mask.is_some() || options.within.is_some();
-    if is_chosen || options.asks_for_looks() || numbers.is_some() {
-        prepare(handle, viewpoint, mask.as_ref(), options)?;
-    }
-    with_cloud(handle, |cloud| query(part(cloud, mask.is_some())))
+    let masked = prepare(handle, viewpoint, choices, options)?;
+    with_cloud(handle, |cloud| query(part(cloud, masked)))
+}
+
+/// The same with the memory of the last view. A view of another cloud, or of other points of it, is forgotten first.
+pub(super) fn with_memory<T>(
+    handle: u32,
+    viewpoint: [f64; 3],
+    choices: &ViewOptions,
+    options: &Options,
+    query: impl FnOnce(&PointCloud, &mut ViewMemory) -> Result<T, Error>,
+) -> Result<T, JsValue> {
+    let masked = prepare(handle, Some(viewpoint), choices, options)?;
+    with_cloud(handle, |cloud| {
+        LAST_VIEW
+            .with_borrow_mut(|last| query(part(cloud, masked), memory_for(last, handle, masked)))
+    })
 }
 
 /// How far measured points lie off their surface.
@@ -133,16 +143,23 @@ fn part(cloud: &PointCloud, is_masked: bool) -> &PointCloud {
     }
 }
 
+/// Keeps what the next view needs, where there is memory. Returns whether a mask chooses points.
 #[inline(never)]
 fn prepare(
     handle: u32,
     viewpoint: Option<[f64; 3]>,
-    mask: Option<&Uint8Array>,
+    choices: &ViewOptions,
     options: &Options,
-) -> Result<(), JsValue> {
+) -> Result<bool, JsValue> {
+    let mask = choices.mask();
+    let numbers = options.denoise.or(options.vote).or(options.sample);
+    let is_chosen = mask.is_some() || options.within.is_some();
+    if !(is_chosen || options.asks_for_looks() || numbers.is_some()) {
+        return Ok(false);
+    }
     CLOUDS.with_borrow_mut(|clouds| match clouds.get_mut(handle as usize) {
         Some(Some(Cloud::Space(cloud))) => {
-            if let Some(mask) = mask {
+            if let Some(mask) = &mask {
                 let is_new = copy_in_bytes(mask).and_then(|mask| cloud.keep_masked(mask))?;
                 if is_new {
                     forget(handle);
@@ -153,7 +170,7 @@ fn prepare(
                 _ => cloud,
             };
             match cloud.keep_part(viewpoint, options) {
-                Ok(()) | Err(Error::OutOfMemory) => Ok(()),
+                Ok(()) | Err(Error::OutOfMemory) => Ok(mask.is_some()),
                 Err(refused) => Err(refused.into()),
             }
         }
@@ -190,16 +207,6 @@ pub(super) fn with_horizon<T>(
         Some(Some(Cloud::Horizon(horizon))) => query(horizon).map_err(JsValue::from),
         _ => Err(disposed()),
     })
-}
-
-/// Runs `view` with the memory of the last view; a view of another cloud, or of other points of
-/// it, is forgotten first.
-pub(super) fn with_memory<T>(
-    handle: u32,
-    masked: bool,
-    view: impl FnOnce(&mut ViewMemory) -> T,
-) -> T {
-    LAST_VIEW.with_borrow_mut(|last| view(memory_for(last, handle, masked)))
 }
 
 #[inline(never)]

@@ -4,7 +4,7 @@ use js_sys::Float64Array;
 use wasm_bindgen::prelude::*;
 
 use crate::MapOptions;
-use crate::wasm::clouds::{with_memory, with_view};
+use crate::wasm::clouds::with_memory;
 use crate::wasm::objects::{list, object};
 use crate::wasm::options::ViewOptions;
 use crate::wasm::transfer::copy_out_singles;
@@ -22,11 +22,10 @@ pub fn visibility_map(
     map: &Float64Array,
 ) -> Result<JsValue, JsValue> {
     let view = options.read();
-    let masked = options.mask().is_some();
     let mut numbers = [0.0; 9];
     map.copy_to(&mut numbers);
     let [points, corners, a, b, c, angle, origin @ ..] = numbers;
-    with_view(handle, Some([x, y, z]), options, &view, |cloud| {
+    with_memory(handle, [x, y, z], options, &view, |cloud, memory| {
         let usual = MapOptions::default();
         let size = |given: f64, usual| if given == 0.0 { usual } else { given as usize };
         let choices = MapOptions {
@@ -35,14 +34,12 @@ pub fn visibility_map(
             towards: (angle != 0.0).then_some(([a, b, c], angle)),
             origin: Some(origin).filter(|origin| origin[0] != f64::INFINITY),
         };
-        with_memory(handle, masked, |memory| {
-            let made = cloud.visibility_map_with(memory, [x, y, z], &view, &choices)?;
-            Ok(object(&[
-                ("data", &copy_out_singles(made.data(), options)?.into()),
-                ("center", &list(&cloud.middle())),
-                ("origin", &list(&made.origin())),
-                ("numbers", &list(&made.numbers().map(f64::from))),
-            ]))
-        })
+        let made = cloud.visibility_map_with(memory, [x, y, z], &view, &choices)?;
+        Ok(object(&[
+            ("data", &copy_out_singles(made.data(), options)?.into()),
+            ("center", &list(&cloud.middle())),
+            ("origin", &list(&made.origin())),
+            ("numbers", &list(&made.numbers().map(f64::from))),
+        ]))
     })
 }

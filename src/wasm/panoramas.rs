@@ -4,7 +4,7 @@ use js_sys::{Float32Array, Float64Array, Uint32Array};
 use wasm_bindgen::prelude::*;
 
 use crate::PanoramaOptions;
-use crate::wasm::clouds::{with_memory, with_view};
+use crate::wasm::clouds::with_memory;
 use crate::wasm::options::ViewOptions;
 
 /// Writes what stands in each direction into `ranges` and `indices`, which have a place for each pixel, and
@@ -20,7 +20,6 @@ pub fn panorama(
     areas: &Float64Array,
 ) -> Result<(), JsValue> {
     let view = options.read();
-    let masked = options.mask().is_some();
     let mut numbers = [0.0; 8];
     asked.copy_to(&mut numbers);
     let [x, y, z, width, height, up @ ..] = numbers;
@@ -29,10 +28,8 @@ pub fn panorama(
         height: height as usize,
         up,
     };
-    let made = with_view(handle, Some([x, y, z]), options, &view, |cloud| {
-        with_memory(handle, masked, |memory| {
-            cloud.panorama_with(memory, [x, y, z], &view, &choices)
-        })
+    let made = with_memory(handle, [x, y, z], options, &view, |cloud, memory| {
+        cloud.panorama_with(memory, [x, y, z], &view, &choices)
     })?;
     ranges.copy_from(&made.ranges);
     indices.copy_from(&made.indices);

@@ -7,7 +7,7 @@ use crate::base::build::FULL;
 use crate::hull::Memory;
 use crate::view::refusals::QuestionKind;
 use crate::wasm::answer::{answered, chosen};
-use crate::wasm::clouds::{with_cloud, with_memory, with_view};
+use crate::wasm::clouds::{with_cloud, with_memory};
 use crate::wasm::options::ViewOptions;
 
 /// Which points are visible from (x, y, z)?
@@ -39,11 +39,8 @@ pub(super) fn seen(
     sector: Sector,
 ) -> Result<JsValue, JsValue> {
     let view = options.read();
-    let masked = options.mask().is_some();
-    let seen = with_view(handle, Some(viewpoint), options, &view, |cloud| {
-        with_memory(handle, masked, |memory| {
-            cloud.visible_in_sector_with(memory, viewpoint, &view, sector)
-        })
+    let seen = with_memory(handle, viewpoint, options, &view, |cloud, memory| {
+        cloud.visible_in_sector_with(memory, viewpoint, &view, sector)
     });
     answered(seen, options)
 }

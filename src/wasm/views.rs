@@ -27,10 +27,8 @@ pub fn go_on(
         return Ok(true);
     }
     let view = options.read();
-    with_view(handle, Some([x, y, z]), options, &view, |cloud| {
-        with_memory(handle, false, |memory| {
-            cloud.go_on_with(memory, [x, y, z], &view, budget as usize)
-        })
+    with_memory(handle, [x, y, z], options, &view, |cloud, memory| {
+        cloud.go_on_with(memory, [x, y, z], &view, budget as usize)
     })
 }
 

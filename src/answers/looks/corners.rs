@@ -76,16 +76,9 @@ impl Corners {
     /// The same with the geometric mean of the neighbors' local spacings instead of each vertex's own:
     /// it depends less on chance, and a neighbor far from all others changes it little.
     pub(crate) fn smoothed(mut self) -> Result<Self, OutOfMemory> {
-        let mut sums = filled(self.all.len(), [0.0; 2])?;
-        for &[a, b, c] in &self.triangles {
-            for [vertex, one, other] in [[a, b, c], [b, c, a], [c, a, b]] {
-                let [sum, count] = &mut sums[vertex as usize];
-                *sum += libm::log(self.at(one).spacing * self.at(other).spacing);
-                *count += 2.0;
-            }
-        }
-        for (corner, [sum, count]) in self.all.iter_mut().zip(sums) {
-            corner.spacing = libm::exp(sum / count);
+        let means = self.means(|one, other| libm::log(one * other))?;
+        for (corner, mean) in self.all.iter_mut().zip(means) {
+            corner.spacing = libm::exp(mean);
         }
         Ok(self)
     }
@@ -99,11 +92,16 @@ impl Corners {
     /// The mean local spacing of the neighbors of each vertex. It is NaN for vertices without
     /// outer faces.
     pub(super) fn rings(&self) -> Result<Vec<f64>, OutOfMemory> {
+        self.means(|one, other| one + other)
+    }
+
+    /// For each vertex half the mean of `pair` over the local spacings of two neighbors at a time.
+    fn means(&self, pair: fn(f64, f64) -> f64) -> Result<Vec<f64>, OutOfMemory> {
         let mut sums = filled(self.all.len(), [0.0; 2])?;
         for &[a, b, c] in &self.triangles {
             for [vertex, one, other] in [[a, b, c], [b, c, a], [c, a, b]] {
                 let [sum, count] = &mut sums[vertex as usize];
-                *sum += self.at(one).spacing + self.at(other).spacing;
+                *sum += pair(self.at(one).spacing, self.at(other).spacing);
                 *count += 2.0;
             }
         }
