@@ -2,9 +2,9 @@
 
 use hidden_point_removal::{Inversion, Options, Placing, PointCloud};
 
-use crate::common::NOWHERE;
 use crate::common::rng::Rng;
 use crate::common::shapes;
+use crate::common::{NOWHERE, refused};
 
 fn scene(seed: u64) -> (PointCloud, Vec<[f64; 3]>, Vec<f64>) {
     let mut rng = Rng::new(seed);
@@ -52,44 +52,24 @@ fn a_choice_ends_when_enough_is_seen() {
 #[test]
 fn questions_that_make_no_sense_are_refused() {
     let (cloud, candidates, _) = scene(4);
-    let default = Options::default();
-    let short = [1.0];
-    let negative = vec![-1.0; 250];
-    for placing in [
-        Placing {
-            count: Some(0),
-            ..Placing::default()
-        },
-        Placing {
-            share: Some(0.0),
-            ..Placing::default()
-        },
-        Placing {
-            share: Some(f64::NAN),
-            ..Placing::default()
-        },
-        Placing {
-            weights: Some(&short),
-            ..Placing::default()
-        },
-        Placing {
-            weights: Some(&negative),
-            ..Placing::default()
-        },
+    let usual = Options::default();
+    let (short, negative) = ([1.0], [-1.0; 250]);
+    for (count, share, weights) in [
+        (Some(0), None, None),
+        (None, Some(0.0), None),
+        (None, Some(f64::NAN), None),
+        (None, None, Some(&short[..])),
+        (None, None, Some(&negative[..])),
     ] {
-        let refusal = cloud.place_viewpoints(&candidates, &default, &placing);
-        assert_eq!(refusal.unwrap_err().code(), "option");
+        let mut placing = Placing::default();
+        (placing.count, placing.share, placing.weights) = (count, share, weights);
+        let found = cloud.place_viewpoints(&candidates, &usual, &placing);
+        refused("option", "", found);
     }
-    let draft = default.draft(true);
     let scores = Options::with_inversion(Inversion::Looks(2)).scores(true);
-    for options in [draft, scores, Options::with_exponent(-1.0)] {
-        assert_eq!(
-            cloud.coverage(&NOWHERE, &options).unwrap_err().code(),
-            "option"
-        );
-        let refusal = cloud.coverage(&candidates, &options).unwrap_err();
-        assert_eq!(refusal.code(), "option");
+    for options in [usual.draft(true), scores, Options::with_exponent(-1.0)] {
+        refused("option", "", cloud.coverage(&NOWHERE, &options));
+        refused("option", "", cloud.coverage(&candidates, &options));
     }
-    let refusal = cloud.coverage(&[[f64::NAN; 3]], &default).unwrap_err();
-    assert_eq!(refusal.code(), "viewpoint");
+    refused("viewpoint", "", cloud.coverage(&[[f64::NAN; 3]], &usual));
 }

@@ -1,12 +1,10 @@
 //! Orthographic views. They are compared with the lower boundary of the lifted points, and
 //! with views from viewpoints that move farther and farther away.
 
-use hidden_point_removal::{
-    Error, Exponential, Inversion, Options, PointCloud, Radius, Visibility,
-};
+use hidden_point_removal::{Exponential, Inversion, Options, PointCloud, Radius, Visibility};
 
 use crate::common::rng::Rng;
-use crate::common::{ask, shapes};
+use crate::common::{ask, refused, shapes};
 
 fn along(points: &[[f64; 3]], direction: [f64; 3], options: &Options) -> Visibility {
     let cloud = PointCloud::new(points).unwrap();
@@ -25,14 +23,13 @@ fn an_empty_cloud_refuses_the_radii_that_any_cloud_refuses() {
         empty.visible_from_direction([0.0, 0.0, 1.0], &options)
     };
     for radius in [f64::NAN, 0.0, -1.0, f64::INFINITY] {
-        let found = ask(Radius::Absolute(radius));
-        assert!(
-            matches!(found, Err(Error::RadiusInvalid { .. })),
-            "{found:?}"
+        refused(
+            "radius",
+            "finite and positive",
+            ask(Radius::Absolute(radius)),
         );
     }
-    let found = ask(Radius::Exponent(-1.0));
-    assert!(matches!(found, Err(Error::Parameter { .. })), "{found:?}");
+    refused("option", "exponent", ask(Radius::Exponent(-1.0)));
     assert_eq!(ask(Radius::Auto).unwrap().count(), 0);
     assert_eq!(ask(Radius::Absolute(5.0)).unwrap().count(), 0);
 }
@@ -146,29 +143,22 @@ fn few_points_and_extreme_sizes_are_answered() {
 #[test]
 fn what_does_not_fit_is_refused() {
     let cloud = PointCloud::new(&shapes::bumpy(&mut Rng::new(3), 20)).unwrap();
-    let refused = |direction, options: &Options| {
-        cloud
-            .visible_from_direction(direction, options)
-            .unwrap_err()
-    };
+    let ask = |direction, options| cloud.visible_from_direction(direction, &options);
     for direction in [[0.0; 3], [f64::NAN, 1.0, 0.0], [f64::INFINITY, 0.0, 0.0]] {
-        let error = refused(direction, &Options::default());
-        assert_eq!(error.code(), "viewpoint", "{error}");
+        refused("viewpoint", "direction", ask(direction, Options::default()));
     }
-    let down = [0.0, 0.0, -1.0];
-    for radius in [Radius::Search, Radius::Opposite] {
-        let options = Options::default().radius(radius);
-        let error = refused(down, &options);
-        assert!(matches!(error, Error::Excludes { .. }) && error.code() == "option");
+    let by = |radius| Options::default().radius(radius);
+    for (code, words, options) in [
+        ("option", "cannot be combined", by(Radius::Search)),
+        ("option", "cannot be combined", by(Radius::Opposite)),
+        (
+            "option",
+            "power",
+            Options::with_inversion(Inversion::Power(2.0)),
+        ),
+        ("radius", "smaller", by(Radius::Absolute(0.1))),
+        ("option", "exponent", by(Radius::Exponent(-0.1))),
+    ] {
+        refused(code, words, ask([0.0, 0.0, -1.0], options));
     }
-    let error = refused(down, &Options::with_inversion(Inversion::Power(2.0)));
-    assert_eq!(
-        (error.code(), error.to_string().contains("power")),
-        ("option", true)
-    );
-    assert_eq!(refused(down, &Options::with_radius(0.1)).code(), "radius");
-    assert_eq!(
-        refused(down, &Options::with_exponent(-0.1)).code(),
-        "option"
-    );
 }

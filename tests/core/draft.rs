@@ -2,13 +2,13 @@
 //! questions. An exact answer can go on from it.
 
 use hidden_point_removal::{
-    Error, Exponential, Inversion, Lighting, Observer, Options, PointCloud, Radius, Sector,
-    Visibility, Within, merge_visible,
+    Exponential, Inversion, Lighting, Observer, Options, PointCloud, Radius, Sector, Visibility,
+    Within, merge_visible,
 };
 
-use crate::common::NOWHERE;
 use crate::common::rng::Rng;
 use crate::common::shapes::{self, Points};
+use crate::common::{NOWHERE, refused};
 
 /// Enough points for a map of directions.
 const MANY: usize = 6000;
@@ -155,25 +155,30 @@ fn there_is_no_draft_of_a_search_a_mesh_light_or_a_merged_answer() {
     let cloud = PointCloud::new(&points).expect("an acceptable cloud");
     let viewpoint = [0.0, 0.0, 5.0];
     let plain = drafted(Options::default());
-    let mut refusals = Vec::new();
     for radius in [Radius::Search, Radius::Opposite] {
         let options = plain.radius(radius);
-        refusals.push(cloud.visible_from(viewpoint, &options).err());
-        refusals.push(cloud.visible_from_any(&NOWHERE, &options).err());
+        refused("option", "draft", cloud.visible_from(viewpoint, &options));
+        refused(
+            "option",
+            "draft",
+            cloud.visible_from_any(&NOWHERE, &options),
+        );
     }
-    refusals.push(cloud.reconstruct(viewpoint, &plain, None).err());
-    refusals.push(
-        cloud
-            .illuminate(&[viewpoint], &plain, &Lighting::default())
-            .err(),
+    refused(
+        "option",
+        "draft",
+        cloud.reconstruct(viewpoint, &plain, None),
     );
+    let lit = cloud.illuminate(&[viewpoint], &plain, &Lighting::default());
+    refused("option", "draft", lit);
     let parts = [(&points[..], &[0, 1, 2][..])];
     for options in [plain, sampled(2)] {
         let options = options.radius(Radius::Absolute(9.0));
-        refusals.push(merge_visible(&parts, viewpoint, &options).err());
-    }
-    for refusal in refusals {
-        assert_eq!(refusal.expect("a refusal").code(), "option");
+        refused(
+            "option",
+            "merging",
+            merge_visible(&parts, viewpoint, &options),
+        );
     }
 }
 
@@ -287,13 +292,14 @@ fn an_observer_tells_samples_from_the_whole() {
 #[test]
 fn samples_of_nothing_are_refused() {
     let cloud = PointCloud::new(&[[0.0, 0.0, 1.0]]).expect("an acceptable cloud");
-    let refusal = cloud.visible_from([0.0; 3], &sampled(0)).unwrap_err();
-    assert_eq!(refusal.code(), "option");
-    let empty = PointCloud::new::<[f64; 3]>(&[]).expect("an acceptable cloud");
-    assert_eq!(
-        empty.visible_from([0.0; 3], &sampled(1)).unwrap().count(),
-        0
+    refused(
+        "option",
+        "sample",
+        cloud.visible_from([0.0; 3], &sampled(0)),
     );
+    let empty = PointCloud::new::<[f64; 3]>(&[]).expect("an acceptable cloud");
+    let nothing = empty.visible_from([0.0; 3], &sampled(1)).unwrap();
+    assert_eq!(nothing.count(), 0);
 }
 
 #[test]
@@ -301,9 +307,8 @@ fn looks_have_samples_with_scores_but_no_drafts() {
     let points = shapes::bumpy(&mut Rng::new(5), 3000);
     let cloud = PointCloud::new(&points).unwrap();
     let looks = Options::with_inversion(Inversion::Looks(3));
-    let error = cloud.visible_from([0.0, 0.0, 3.0], &drafted(looks));
-    let (option, other) = ("looks", "draft");
-    assert_eq!(error.unwrap_err(), Error::Excludes { option, other });
+    let draft = cloud.visible_from([0.0, 0.0, 3.0], &drafted(looks));
+    refused("option", "looks cannot be combined with draft", draft);
 
     let sampled = looks.sample(1000);
     let seen = cloud.visible_from([0.0, 0.0, 3.0], &sampled).unwrap();

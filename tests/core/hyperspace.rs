@@ -1,12 +1,12 @@
 //! Four and more dimensions, compared with the exact answers in three, and on known shapes.
 
 use hidden_point_removal::{
-    Error, Exponential, Inversion, NonFinite, Options, PointCloudNd, Radius, Visibility,
+    Exponential, Inversion, NonFinite, Options, PointCloudNd, Radius, Visibility,
 };
 
-use crate::common::ask;
 use crate::common::rng::Rng;
 use crate::common::scenes::KINDS;
+use crate::common::{ask, refused};
 
 fn asked(dimension: usize, rows: &[Vec<f64>], viewpoint: &[f64], options: &Options) -> Visibility {
     let cloud = PointCloudNd::new(dimension, &rows.concat()).unwrap();
@@ -158,64 +158,41 @@ fn every_rule_inversion_and_union_is_there() {
 #[test]
 fn what_does_not_fit_is_refused() {
     for dimension in [0, 1, 3, 65] {
-        let error = PointCloudNd::new(dimension, &[]).err().unwrap();
-        assert!(matches!(
-            error,
-            Error::OutOfRange {
-                option: "dimension",
-                ..
-            }
-        ));
+        refused(
+            "option",
+            "dimension must be from",
+            PointCloudNd::new(dimension, &[]),
+        );
     }
-    let error = PointCloudNd::new(4, &[0.0; 7]).err().unwrap();
-    assert_eq!(
-        (error.code(), error),
-        (
-            "positions-length",
-            Error::PositionsLength {
-                len: 7,
-                dimension: 4
-            }
-        )
-    );
+    let uneven = "7 coordinates are not a multiple of the dimension, 4";
+    refused("positions-length", uneven, PointCloudNd::new(4, &[0.0; 7]));
     let bad = [[0.0; 4], [0.0, 1.0, f64::NAN, 0.0], [1.0; 4]].concat();
-    assert_eq!(
-        PointCloudNd::new(4, &bad).err(),
-        Some(Error::NonFinite { count: 1, first: 1 })
-    );
+    refused("non-finite", "1 point(s)", PointCloudNd::new(4, &bad));
     let mut cloud = PointCloudNd::with_non_finite(4, &bad, NonFinite::Skip).unwrap();
     assert_eq!((cloud.len(), cloud.skipped()), (3, 1));
     let options = Options::default();
-    assert_eq!(
-        cloud
-            .visible_from(&[5.0, 0.0, 0.0, 0.0], &options)
-            .unwrap()
-            .indices(),
-        [0, 2]
-    );
+    let seen = cloud.visible_from(&[5.0, 0.0, 0.0, 0.0], &options).unwrap();
+    assert_eq!(seen.indices(), [0, 2]);
     for viewpoint in [&[0.0; 3][..], &[0.0, 0.0, 0.0, f64::INFINITY]] {
-        let error = cloud.visible_from(viewpoint, &options).unwrap_err();
-        assert_eq!(
-            (error.code(), error),
-            ("viewpoint", Error::ViewpointDimension { dimension: 4 })
-        );
+        let found = cloud.visible_from(viewpoint, &options);
+        refused("viewpoint", "must be 4 finite numbers", found);
     }
-    let noisy = [options.vote(1), options.denoise(1)];
-    for options in noisy {
-        let error = cloud.visible_from(&[0.0; 4], &options).unwrap_err();
-        assert!(matches!(error, Error::Dimension { dimension: 4, .. }) && error.code() == "option");
+    refused("option", "index 3", cloud.remove(&[3]));
+    for (code, words, options) in [
+        (
+            "option",
+            "vote needs a cloud of dimension 3",
+            options.vote(1),
+        ),
+        (
+            "option",
+            "denoise needs a cloud of dimension 3",
+            options.denoise(1),
+        ),
+        ("radius", "smaller", Options::with_radius(0.1)),
+    ] {
+        refused(code, words, cloud.visible_from(&[0.0; 4], &options));
     }
-    assert_eq!(
-        cloud.remove(&[3]),
-        Err(Error::IndexOutOfRange { index: 3, len: 3 })
-    );
-    let error = cloud
-        .visible_from(&[0.0; 4], &Options::with_radius(0.1))
-        .unwrap_err();
-    assert_eq!(error.code(), "radius");
     let far = PointCloudNd::new(4, &[1e200; 4]).unwrap();
-    assert_eq!(
-        far.visible_from(&[0.0; 4], &options).unwrap_err().code(),
-        "radius"
-    );
+    refused("radius", "range", far.visible_from(&[0.0; 4], &options));
 }

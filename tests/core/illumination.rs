@@ -2,11 +2,11 @@
 
 use std::collections::BTreeSet;
 
-use hidden_point_removal::{Error, Lighting, NonFinite, Options, PointCloud};
+use hidden_point_removal::{Lighting, NonFinite, Options, PointCloud};
 
 use crate::common::flip::distance;
 use crate::common::rng::Rng;
-use crate::common::{ask, shapes};
+use crate::common::{ask, refused, shapes};
 
 const LIGHTS: [[f64; 3]; 3] = [[0.0, 0.0, 4.0], [3.0, -2.0, 1.0], [0.0, -5.0, 0.5]];
 
@@ -193,40 +193,20 @@ fn a_body_shades_itself_and_what_is_behind_it() {
 #[test]
 fn what_does_not_fit_is_refused() {
     let cloud = PointCloud::new(&shapes::bumpy(&mut Rng::new(3), 20)).unwrap();
-    let refused = |lights: &[[f64; 3]], lighting: &Lighting| {
-        cloud
-            .illuminate(lights, &Options::default(), lighting)
-            .unwrap_err()
+    let ask = |lights: &[[f64; 3]], lighting: &Lighting| {
+        cloud.illuminate(lights, &Options::default(), lighting)
     };
     for ambient in [-0.1, 1.1, f64::NAN] {
-        let error = refused(&LIGHTS, &hard(ambient));
-        assert!(matches!(
-            error,
-            Error::OutOfRange {
-                option: "ambient",
-                ..
-            }
-        ));
+        refused(
+            "option",
+            "ambient must be from 0 to 1",
+            ask(&LIGHTS, &hard(ambient)),
+        );
     }
-    let lighting = Lighting {
-        smoothing: 1001,
-        ..Lighting::default()
-    };
-    assert!(matches!(
-        refused(&LIGHTS, &lighting),
-        Error::OutOfRange {
-            option: "smoothing",
-            ..
-        }
-    ));
-    let lighting = Lighting {
-        triangles: Some(&[[0, 1, 2], [3, 20, 4]]),
-        ..Lighting::default()
-    };
-    let error = refused(&LIGHTS, &lighting);
-    assert_eq!(
-        (error, error.code()),
-        (Error::IndexOutOfRange { index: 20, len: 20 }, "option")
-    );
-    assert_eq!(refused(&[[f64::NAN; 3]], &hard(0.0)).code(), "viewpoint");
+    let (mut smooth, mut mesh) = (hard(0.0), hard(0.0));
+    smooth.smoothing = 1001;
+    refused("option", "smoothing must be from", ask(&LIGHTS, &smooth));
+    mesh.triangles = Some(&[[0, 1, 2], [3, 20, 4]]);
+    refused("option", "index 20 is out of range", ask(&LIGHTS, &mesh));
+    refused("viewpoint", "", ask(&[[f64::NAN; 3]], &hard(0.0)));
 }

@@ -2,13 +2,13 @@
 //! must not change the answer.
 
 use hidden_point_removal::{
-    Error, Inversion, Lighting, Options, PointCloud, PointCloudNd, Radius, Visibility, Within,
+    Inversion, Lighting, Options, PointCloud, PointCloudNd, Radius, Visibility, Within,
     merge_visible,
 };
 
 use crate::common::rng::Rng;
 use crate::common::scenes::{KINDS, Scene};
-use crate::common::{NOWHERE, ask};
+use crate::common::{NOWHERE, ask, refused};
 
 const FRONT: [f64; 3] = [0.0, 0.0, 5.0];
 
@@ -300,71 +300,48 @@ fn what_needs_one_hull_refuses_looks() {
     let points = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
     let cloud = PointCloud::new(&points).unwrap();
     let options = Options::with_inversion(Inversion::Looks(3));
-    let refused = |other| Error::Excludes {
-        option: "looks",
-        other,
-    };
-    let view = |options: Options| cloud.visible_from(FRONT, &options).unwrap_err();
-
-    assert_eq!(
-        cloud.reconstruct(FRONT, &options, None).unwrap_err(),
-        refused("reconstruct")
-    );
-    let lighting = Lighting::default();
+    let view = |options: Options| cloud.visible_from(FRONT, &options);
+    let with = |other: &str| format!("looks cannot be combined with {other}");
+    let mesh = cloud.reconstruct(FRONT, &options, None);
+    refused("option", &with("reconstruct"), mesh);
     for lights in [&[FRONT][..], &[]] {
-        let light = cloud.illuminate(lights, &options, &lighting).unwrap_err();
-        assert_eq!(light, refused("illuminate"));
+        let light = cloud.illuminate(lights, &options, &Lighting::default());
+        refused("option", &with("illuminate"), light);
     }
-    let ids = [0, 1, 2];
-    let merged = merge_visible(&[(&points[..], &ids[..])], FRONT, &options);
-    assert_eq!(merged.unwrap_err(), refused("merging"));
+    let merged = merge_visible(&[(&points[..], &[0, 1, 2][..])], FRONT, &options);
+    refused("option", &with("merging"), merged);
     for (radius, name) in [
         (Radius::Search, "radius \"search\""),
         (Radius::Absolute(9.0), "radius"),
         (Radius::Exponent(2.0), "exponent"),
     ] {
-        assert_eq!(view(options.radius(radius)), refused(name));
-        let radius = options.radius(radius);
-        assert_eq!(
-            cloud.visible_from_any(&NOWHERE, &radius).unwrap_err(),
-            refused(name)
+        let options = options.radius(radius);
+        refused("option", &with(name), view(options));
+        refused(
+            "option",
+            &with(name),
+            cloud.visible_from_any(&NOWHERE, &options),
         );
     }
     for count in [0, 1, 4] {
-        let error = view(looks(count));
-        assert!(
-            matches!(
-                error,
-                Error::OutOfRange {
-                    option: "looks",
-                    ..
-                }
-            ),
-            "{error}"
-        );
-        assert_eq!(error.code(), "option");
+        refused("option", "looks must be from", view(looks(count)));
     }
+    let without = |other: &str| format!("scores cannot be combined with {other}");
     let scores = Options::default().scores(true);
-    let without = |other| Error::Excludes {
-        option: "scores",
-        other,
-    };
-    assert_eq!(view(scores), without("an answer without looks"));
-    let several = cloud.visible_from_any(&[FRONT], &looks(3)).unwrap_err();
-    assert_eq!(several, without("several viewpoints"));
-    let nowhere = cloud
-        .visible_from([f64::NAN, 0.0, 0.0], &options)
-        .unwrap_err();
-    assert_eq!(nowhere.code(), "viewpoint");
-    let beyond = cloud.visible_from([1e300, 0.0, 0.0], &options).unwrap_err();
-    assert_eq!(beyond.code(), "radius");
-
-    let hyper = PointCloudNd::new(4, &[0.0; 8]).unwrap();
-    assert_eq!(
-        hyper.visible_from(&[5.0; 4], &options).unwrap_err(),
-        Error::Dimension {
-            option: "looks",
-            dimension: 4
-        }
+    refused("option", &without("an answer without looks"), view(scores));
+    let several = cloud.visible_from_any(&[FRONT], &looks(3));
+    refused("option", &without("several viewpoints"), several);
+    refused(
+        "viewpoint",
+        "",
+        cloud.visible_from([f64::NAN, 0.0, 0.0], &options),
     );
+    refused(
+        "radius",
+        "",
+        cloud.visible_from([1e300, 0.0, 0.0], &options),
+    );
+    let hyper = PointCloudNd::new(4, &[0.0; 8]).unwrap();
+    let found = hyper.visible_from(&[5.0; 4], &options);
+    refused("option", "looks needs a cloud of dimension 3", found);
 }

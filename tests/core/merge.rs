@@ -1,13 +1,12 @@
 //! Merging the visible points of parts, for any division of a cloud.
 
 use hidden_point_removal::{
-    Error, Exponential, Inversion, Options, PointCloud, Position, Radius, merge_visible,
-    merge_visible_u64,
+    Error, Exponential, Inversion, Options, Position, merge_visible, merge_visible_u64,
 };
 
-use crate::common::ask;
 use crate::common::rng::Rng;
 use crate::common::shapes;
+use crate::common::{ask, refused};
 
 const FRONT: [f64; 3] = [0.0, 0.0, 5.0];
 
@@ -43,51 +42,46 @@ fn equal_points_share_one_answer_and_equal_ids_come_once() {
 fn what_cannot_be_merged_is_refused() {
     let points = shapes::bumpy(&mut Rng::new(7), 20);
     let part = || (points.clone(), (0..20).collect::<Vec<u32>>());
-    let fits = Options::with_radius(100.0);
-
     for options in [
         Options::default(),
         Options::with_exponent(3.0),
         Options::with_inversion(Inversion::Power(1.7)),
         Options::with_inversion(Inversion::Exponential(Exponential::Auto)),
     ] {
-        let error = merge(&[part()], FRONT, &options).unwrap_err();
-        assert_eq!((error, error.code()), (Error::MergeRadius, "option"));
-        assert!(error.to_string().contains("radius"));
+        refused(
+            "option",
+            "merging needs the radius",
+            merge(&[part()], FRONT, &options),
+        );
     }
-    let farthest = PointCloud::new(&[[0.0, 0.0, -95.5]]).unwrap();
-    let farthest = farthest.auto_radius(FRONT, Radius::Auto).unwrap().radius;
-    let far = (vec![[0.0, 0.0, -95.5]], vec![77]);
-    let error = merge(&[part(), far], FRONT, &fits).unwrap_err();
-    let expected = Error::RadiusTooSmall {
-        radius: 100.0,
-        farthest,
-    };
-    assert_eq!((error, error.code()), (expected, "radius"));
-
-    let short = (points.clone(), vec![1, 2, 3]);
-    let error = merge(&[part(), short], FRONT, &fits).unwrap_err();
-    let expected = Error::IdsLength {
-        part: 1,
-        positions: 20,
-        ids: 3,
-    };
-    assert_eq!((error, error.code()), (expected, "positions-length"));
-    assert!(error.to_string().contains("part 1"));
-
-    let broken = (vec![[f64::NAN; 3]], vec![5]);
-    let error = merge(&[part(), broken], FRONT, &fits).unwrap_err();
-    let expected = Error::NonFinite {
-        count: 1,
-        first: 20,
-    };
-    assert_eq!(error, expected);
-
-    let error = merge(&[part()], [f64::NAN; 3], &fits).unwrap_err();
-    assert_eq!(error.code(), "viewpoint");
+    for (second, code, words) in [
+        (
+            (vec![[0.0, 0.0, -95.5]], vec![77]),
+            "radius",
+            "farthest point, 100.5",
+        ),
+        (
+            (points.clone(), vec![1, 2, 3]),
+            "positions-length",
+            "part 1 has 20 positions, but 3",
+        ),
+        (
+            (vec![[f64::NAN; 3]], vec![5]),
+            "non-finite",
+            "the first at index 20",
+        ),
+    ] {
+        let found = merge(&[part(), second], FRONT, &Options::with_radius(100.0));
+        refused(code, words, found);
+    }
+    let nowhere = merge(&[part()], [f64::NAN; 3], &Options::with_radius(100.0));
+    refused("viewpoint", "", nowhere);
     for bad in [f64::NAN, f64::INFINITY, 0.0, -1.0] {
-        let error = merge::<[f64; 3]>(&[], FRONT, &Options::with_radius(bad)).unwrap_err();
-        assert_eq!(error.code(), "radius");
+        refused(
+            "radius",
+            "",
+            merge::<[f64; 3]>(&[], FRONT, &Options::with_radius(bad)),
+        );
     }
 }
 

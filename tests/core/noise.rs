@@ -1,9 +1,9 @@
 //! Denoising before a view, and votes after it.
 
-use hidden_point_removal::{Error, Options, PointCloud, merge_visible};
+use hidden_point_removal::{Options, PointCloud, merge_visible};
 
 use crate::common::rng::Rng;
-use crate::common::{ask, shapes};
+use crate::common::{ask, refused, shapes};
 
 const FRONT: [f64; 3] = [0.0, 0.0, 3.0];
 
@@ -163,26 +163,18 @@ fn removed_and_skipped_points_are_no_neighbors() {
 fn what_does_not_fit_is_refused() {
     let points = shapes::bumpy(&mut Rng::new(3), 20);
     let cloud = PointCloud::new(&points).unwrap();
+    let ask = |options: Options| cloud.visible_from(FRONT, &options);
     for k in [0, 20, usize::MAX] {
-        for (options, name) in [(voting(k), "vote"), (denoising(k), "denoise")] {
-            let error = cloud.visible_from(FRONT, &options).unwrap_err();
-            let Error::OutOfRange { option, most, .. } = error else {
-                panic!("{error}");
-            };
-            assert_eq!((option, most, error.code()), (name, 19.0, "option"));
-        }
-        assert!(cloud.denoised(k).is_err());
+        refused("option", "vote must be from 1 to 19", ask(voting(k)));
+        refused("option", "denoise must be from 1 to 19", ask(denoising(k)));
+        refused("option", "", cloud.denoised(k));
     }
     for options in [voting(19), denoising(19)] {
-        assert!(cloud.visible_from(FRONT, &options).is_ok());
+        assert!(ask(options).is_ok());
         let options = options.radius(Options::with_radius(9.0).radius);
-        let parts = [(&points[..], &[0; 20][..])];
-        let error = merge_visible(&parts, FRONT, &options).unwrap_err();
-        assert_eq!(
-            (error.code(), matches!(error, Error::Excludes { .. })),
-            ("option", true)
-        );
+        let merged = merge_visible(&[(&points[..], &[0; 20][..])], FRONT, &options);
+        refused("option", "cannot be combined with merging", merged);
     }
     let alone = PointCloud::new(&[[0.0; 3]]).unwrap();
-    assert!(alone.visible_from(FRONT, &voting(1)).is_err());
+    refused("option", "vote", alone.visible_from(FRONT, &voting(1)));
 }

@@ -3,9 +3,10 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use hidden_point_removal::{
-    Error, Exponential, Inversion, Options, Panorama, PanoramaOptions, PointCloud,
+    Exponential, Inversion, Options, Panorama, PanoramaOptions, PointCloud,
 };
 
+use crate::common::refused;
 use crate::common::rng::Rng;
 
 const HALF: [f64; 3] = [2.0, 1.5, 1.25];
@@ -313,42 +314,35 @@ fn few_points_are_no_surface() {
 #[test]
 fn what_has_no_panorama_is_refused() {
     let cloud = PointCloud::new(&room(100, true)).unwrap();
-    let ask = |options: &Options, size: &PanoramaOptions, from: [f64; 3]| {
-        cloud.panorama(from, options, size).unwrap_err()
-    };
     let usual = Options::default();
+    let of_size = |change: &dyn Fn(&mut PanoramaOptions)| {
+        let mut size = SIZE;
+        change(&mut size);
+        cloud.panorama(INSIDE, &usual, &size)
+    };
     for size in [0, 16_385] {
-        for size in [
-            PanoramaOptions {
-                width: size,
-                ..SIZE
-            },
-            PanoramaOptions {
-                height: size,
-                ..SIZE
-            },
-        ] {
-            assert!(matches!(
-                ask(&usual, &size, INSIDE),
-                Error::OutOfRange { .. }
-            ));
-        }
+        refused(
+            "option",
+            "width",
+            of_size(&|panorama| panorama.width = size),
+        );
+        refused(
+            "option",
+            "height",
+            of_size(&|panorama| panorama.height = size),
+        );
     }
     for up in [[0.0; 3], [f64::NAN, 0.0, 1.0]] {
-        let size = PanoramaOptions { up, ..SIZE };
-        assert!(matches!(
-            ask(&usual, &size, INSIDE),
-            Error::Direction { .. }
-        ));
+        refused(
+            "viewpoint",
+            "direction",
+            of_size(&|panorama| panorama.up = up),
+        );
     }
-    let refused = ask(&usual, &SIZE, [f64::INFINITY, 0.0, 0.0]);
-    assert!(matches!(refused, Error::Viewpoint { .. }));
-    let draft = usual.draft(true);
-    let scores = ways()[2].scores(true);
-    for options in [draft, scores] {
-        assert!(matches!(
-            ask(&options, &SIZE, INSIDE),
-            Error::Excludes { .. }
-        ));
+    let nowhere = cloud.panorama([f64::INFINITY, 0.0, 0.0], &usual, &SIZE);
+    refused("viewpoint", "viewpoint", nowhere);
+    for options in [usual.draft(true), ways()[2].scores(true)] {
+        let found = cloud.panorama(INSIDE, &options, &SIZE);
+        refused("option", "cannot be combined", found);
     }
 }

@@ -1,30 +1,32 @@
 //! Bad input: every error occurs, and valid input is not refused.
 
-use hidden_point_removal::{Error, NonFinite, Options, PointCloud, Radius};
+use hidden_point_removal::{Error, NonFinite, Options, PointCloud, Radius, Visibility};
+
+use crate::common::refused;
 
 const NAN: f64 = f64::NAN;
 const INF: f64 = f64::INFINITY;
 const ORIGIN: [f64; 3] = [0.0; 3];
 const POINTS: [[f64; 3]; 3] = [[3.0, 4.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, -2.0]];
 
-fn refused(points: &[[f64; 3]], viewpoint: [f64; 3], options: Options) -> Error {
+type View = Result<Visibility, Error>;
+
+fn view(points: &[[f64; 3]], viewpoint: [f64; 3], options: Options) -> View {
     let cloud = PointCloud::new(points).unwrap();
-    cloud.visible_from(viewpoint, &options).unwrap_err()
+    cloud.visible_from(viewpoint, &options)
 }
 
 #[test]
 fn positions_that_are_not_finite_are_counted_and_located() {
-    let error = PointCloud::new(&[[0.0; 3], [1.0, NAN, NAN], [INF, 0.0, -INF], [2.0; 3]]).err();
-    assert_eq!(error, Some(Error::NonFinite { count: 2, first: 1 }));
-    let error = error.unwrap();
-    assert_eq!(error.code(), "non-finite");
-    let message = error.to_string();
-    assert!(
-        message.contains('2') && message.contains("index 1"),
-        "{message}"
-    );
-    let single = PointCloud::new(&[[0.0f32, f32::NEG_INFINITY, 0.0]]).err();
-    assert_eq!(single, Some(Error::NonFinite { count: 1, first: 0 }));
+    let words = |count, first| {
+        format!(
+            "{count} point(s) have a coordinate that is NaN or infinite, the first at index {first}"
+        )
+    };
+    let double = PointCloud::new(&[[0.0; 3], [1.0, NAN, NAN], [INF, 0.0, -INF], [2.0; 3]]);
+    refused("non-finite", &words(2, 1), double);
+    let single = PointCloud::new(&[[0.0f32, f32::NEG_INFINITY, 0.0]]);
+    refused("non-finite", &words(1, 0), single);
 }
 
 #[test]
@@ -68,47 +70,26 @@ fn a_viewpoint_that_is_not_finite_is_refused() {
             let mut viewpoint = [1.0; 3];
             viewpoint[axis] = bad;
             for points in [&POINTS[..], &[]] {
-                let error = refused(points, viewpoint, Options::default());
-                assert!(matches!(error, Error::Viewpoint { .. }), "{error:?}");
-                assert_eq!(error.code(), "viewpoint");
+                refused("viewpoint", "", view(points, viewpoint, Options::default()));
                 let cloud = PointCloud::new(points).unwrap();
-                assert_eq!(
-                    cloud
-                        .auto_radius(viewpoint, Radius::Auto)
-                        .unwrap_err()
-                        .code(),
-                    "viewpoint"
-                );
+                refused("viewpoint", "", cloud.auto_radius(viewpoint, Radius::Auto));
             }
         }
     }
 }
 
 #[test]
-fn a_radius_that_is_no_positive_number_is_refused() {
-    for bad in [NAN, INF, -INF, 0.0, -0.0, -5.0] {
-        for points in [&POINTS[..], &[]] {
-            let error = refused(points, ORIGIN, Options::with_radius(bad));
-            assert!(matches!(error, Error::RadiusInvalid { .. }), "{error:?}");
-            assert_eq!(error.code(), "radius");
+fn numbers_that_are_no_radius_or_exponent_are_refused() {
+    for points in [&POINTS[..], &[]] {
+        for bad in [NAN, INF, -INF, 0.0, -0.0, -5.0] {
+            let found = view(points, ORIGIN, Options::with_radius(bad));
+            refused("radius", "radius must be finite and positive", found);
+        }
+        for bad in [NAN, INF, -INF, -0.5] {
+            let found = view(points, ORIGIN, Options::with_exponent(bad));
+            refused("option", "exponent must be finite and at least 0", found);
         }
     }
-}
-
-#[test]
-fn a_radius_within_the_cloud_is_refused_with_both_numbers() {
-    let error = refused(&POINTS, ORIGIN, Options::with_radius(4.5));
-    let expected = Error::RadiusTooSmall {
-        radius: 4.5,
-        farthest: 5.0,
-    };
-    assert_eq!(error, expected);
-    assert_eq!(error.code(), "radius");
-    let message = error.to_string();
-    assert!(
-        message.contains("4.5") && message.contains('5'),
-        "{message}"
-    );
 }
 
 #[test]
@@ -119,99 +100,67 @@ fn distances_and_radii_beyond_the_range_are_refused() {
         Options::with_exponent(0.0),
         Options::with_radius(1e300),
     ] {
-        let error = refused(&far, ORIGIN, options);
-        assert!(matches!(error, Error::RadiusOverflow { .. }), "{error:?}");
-        assert_eq!(error.code(), "radius");
+        refused(
+            "radius",
+            "the farthest distance (infinity)",
+            view(&far, ORIGIN, options),
+        );
     }
-    assert_eq!(
-        PointCloud::new(&far)
-            .unwrap()
-            .auto_radius(ORIGIN, Radius::Auto)
-            .unwrap_err()
-            .code(),
-        "radius"
-    );
+    let cloud = PointCloud::new(&far).unwrap();
+    refused("radius", "", cloud.auto_radius(ORIGIN, Radius::Auto));
     // p − C itself overflows.
-    let error = refused(
-        &[[f64::MAX, 0.0, 0.0]],
-        [-f64::MAX, 0.0, 0.0],
-        Options::default(),
+    let end = [f64::MAX, 0.0, 0.0];
+    refused(
+        "radius",
+        "",
+        view(&[end], end.map(|x| -x), Options::default()),
     );
-    assert_eq!(error.code(), "radius");
-    // Twice the radius overflows.
     for options in [
         Options::with_radius(f64::MAX),
         Options::with_exponent(308.0),
         Options::with_exponent(1e300),
     ] {
-        let error = refused(&POINTS, ORIGIN, options);
-        assert!(matches!(error, Error::RadiusOverflow { .. }), "{error:?}");
-    }
-}
-
-#[test]
-fn an_exponent_that_is_no_number_from_zero_up_is_refused() {
-    for bad in [NAN, INF, -INF, -0.5] {
-        for points in [&POINTS[..], &[]] {
-            let error = refused(points, ORIGIN, Options::with_exponent(bad));
-            assert!(matches!(error, Error::Parameter { .. }), "{error:?}");
-            assert_eq!(error.code(), "option");
-        }
+        refused(
+            "radius",
+            "exceeds the range of f64",
+            view(&POINTS, ORIGIN, options),
+        );
     }
 }
 
 /// The npm package words these itself; tests/package/errors.test.ts expects the same.
 #[test]
 fn messages_spell_numbers_plainly() {
-    let view = |viewpoint, options| refused(&[[3.0, 4.0, 0.0]], viewpoint, options).to_string();
-    let at = |options| view(ORIGIN, options);
-    assert_eq!(
-        PointCloud::new(&[[0.0; 3], [NAN; 3]])
-            .err()
-            .unwrap()
-            .to_string(),
-        "1 point(s) have a coordinate that is NaN or infinite, the first at index 1"
-    );
-    assert_eq!(
-        view([0.0, NAN, 5.5], Options::default()),
-        "the viewpoint must be finite, got 0, NaN, 5.5"
-    );
-    assert_eq!(
-        at(Options::with_radius(INF)),
-        "radius must be finite and positive, got infinity"
-    );
-    assert_eq!(
-        at(Options::with_radius(-0.0)),
-        "radius must be finite and positive, got -0"
-    );
-    assert_eq!(
-        at(Options::with_radius(1.2e-6)),
-        "radius 0.0000012 is smaller than the distance of the farthest point, 5"
-    );
-    assert_eq!(
-        at(Options::with_radius(1.2e-7)),
-        "radius 1.2e-7 is smaller than the distance of the farthest point, 5"
-    );
-    assert_eq!(
-        at(Options::with_radius(1.5e308)),
-        "twice the radius 1.5e308 exceeds the range of f64 (the farthest distance is 5)"
-    );
-    assert_eq!(
-        refused(&[[1e200, 0.0, 0.0]], ORIGIN, Options::default()).to_string(),
-        "the farthest distance (infinity) exceeds the range of f64"
-    );
-    assert_eq!(
-        at(Options::with_exponent(-1e20)),
-        "exponent must be finite and at least 0, got -100000000000000000000"
-    );
-    assert_eq!(
-        at(Options::with_exponent(-1e21)),
-        "exponent must be finite and at least 0, got -1e21"
-    );
-    let mut cloud = PointCloud::new(&POINTS).unwrap();
-    assert_eq!(
-        cloud.remove(&[3]).unwrap_err().to_string(),
-        "index 3 is out of range for a cloud of length 3"
+    use Radius::{Absolute, Exponent};
+    let point = [[3.0, 4.0, 0.0]];
+    let small = "is smaller than the distance of the farthest point, 5";
+    let small = |radius: &str| format!("radius {radius} {small}");
+    let large = "twice the radius 1.5e308 exceeds the range of f64 (the farthest distance is 5)";
+    for (code, message, radius) in [
+        ("radius", "finite and positive, got infinity", Absolute(INF)),
+        ("radius", "finite and positive, got -0", Absolute(-0.0)),
+        ("radius", &small("4.5"), Absolute(4.5)),
+        ("radius", &small("0.0000012"), Absolute(1.2e-6)),
+        ("radius", &small("1.2e-7"), Absolute(1.2e-7)),
+        ("radius", large, Absolute(1.5e308)),
+        (
+            "option",
+            "at least 0, got -100000000000000000000",
+            Exponent(-1e20),
+        ),
+        ("option", "at least 0, got -1e21", Exponent(-1e21)),
+    ] {
+        refused(
+            code,
+            message,
+            view(&point, ORIGIN, Options::default().radius(radius)),
+        );
+    }
+    let nowhere = view(&point, [0.0, NAN, 5.5], Options::default());
+    refused(
+        "viewpoint",
+        "the viewpoint must be finite, got 0, NaN, 5.5",
+        nowhere,
     );
 }
 

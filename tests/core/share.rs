@@ -1,9 +1,10 @@
 //! Sectors of a cloud in parts: each holds its own points and boxes of the rest, and asks for what is
 //! missing.
 
-use hidden_point_removal::{Error, Exponential, Inversion, Options, PointCloud, share_visible};
+use hidden_point_removal::{Exponential, Inversion, Options, PointCloud, share_visible};
 
 use crate::common::parts::{Asked, Place, box_of, compare, octant};
+use crate::common::refused;
 use crate::common::rng::Rng;
 use crate::common::scenes::Scene;
 use crate::common::shapes;
@@ -80,28 +81,17 @@ fn bad_input_is_refused() {
         [[0.0; 3], [1.0, f64::INFINITY, 1.0]],
         [[0.0, 0.0, 2.0], [1.0; 3]],
     ] {
-        assert_eq!(ask(&points, &[bad], &options), Err(Error::BoundsInvalid));
+        refused("option", "a box must be", ask(&points, &[bad], &options));
     }
-    assert_eq!(
-        ask(&nan, &[], &options),
-        Err(Error::NonFinite { count: 1, first: 0 })
-    );
-    assert_eq!(
-        ask(&points, &[], &Options::default()),
-        Err(Error::MergeRadius)
-    );
-    let vote = options.vote(1);
-    assert_eq!(
-        ask(&points, &[], &vote),
-        Err(Error::Excludes {
-            option: "vote",
-            other: "merging"
-        })
-    );
-    assert!(matches!(
-        ask(&points, &[], &Options::with_radius(1.0)),
-        Err(Error::RadiusTooSmall { .. })
-    ));
+    refused("non-finite", "1 point(s)", ask(&nan, &[], &options));
+    let merging = "vote cannot be combined with merging";
+    for (code, words, options) in [
+        ("option", "merging needs the radius", Options::default()),
+        ("option", merging, options.vote(1)),
+        ("radius", "smaller", Options::with_radius(1.0)),
+    ] {
+        refused(code, words, ask(&points, &[], &options));
+    }
     // Without own points nothing is asked.
     let share = ask(&[], &[[[0.0; 3], [1.0; 3]]], &options).unwrap();
     assert_eq!((share.visible().len(), share.missing().len()), (0, 0));

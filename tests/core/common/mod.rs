@@ -33,7 +33,7 @@ pub mod walked;
 /// No viewpoints.
 pub const NOWHERE: [[f64; 3]; 0] = [];
 
-use hidden_point_removal::{Options, PointCloud, Position, Visibility};
+use hidden_point_removal::{Error, Options, PointCloud, Position, Visibility};
 
 use certify::Certifier;
 use flip::flip;
@@ -44,6 +44,16 @@ pub fn ask<P: Position>(points: &[P], viewpoint: [f64; 3], options: &Options) ->
         .expect("an acceptable cloud")
         .visible_from(viewpoint, options)
         .expect("an acceptable view")
+}
+
+/// Asserts that the question was refused with this code, by a message that has these words.
+#[track_caller]
+pub fn refused<T>(code: &str, words: &str, found: Result<T, Error>) {
+    let error = found
+        .err()
+        .unwrap_or_else(|| panic!("answered, not refused as {code}: {words}"));
+    assert_eq!(error.code(), code, "{error}");
+    assert!(error.to_string().contains(words), "{error}, not: {words}");
 }
 
 /// In single precision, if that is requested and can hold every coordinate.
