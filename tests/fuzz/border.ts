@@ -5,8 +5,6 @@ import { WorkerPointCloud } from "hidden-point-removal/worker";
 import { actingArguments, actingChanges, disappearingMemory } from "./border/acting.js";
 import { changes } from "./border/changes.js";
 import { flights } from "./border/flight.js";
-import { formulas, outputs, rings } from "./border/functions.js";
-import { disappearingParts, merges } from "./border/merging.js";
 import { oneShot, questions } from "./border/single.js";
 import { structured } from "./border/structured.js";
 
@@ -32,14 +30,9 @@ export const PROPERTIES: readonly Property[] = [
   entry("any cloud, asked anything, here and in a worker", 100, questions),
   entry("the whole operation in one call", 300, oneShot),
   entry("any sequence of changes and questions", 40, changes),
-  entry("parts of any kind, merged", 300, merges),
-  entry("parts whose memory goes away while they are read", 300, disappearingParts),
   entry("arguments that act while they are read", 100, actingArguments),
   entry("changes that act while they are read", 40, actingChanges),
   entry("memory that goes away while arguments are read", 40, disappearingMemory),
-  entry("bounds as formulas", 500, formulas),
-  entry("rings of viewpoints", 200, rings),
-  entry("arrays that answers are written into", 300, outputs),
   entry("workers that end in flight", 10, flights),
   entry("structured clouds, here, in a worker and in several", 10, structured),
 ];

@@ -189,9 +189,8 @@ describe("missing points, wrong files and wrong usage", () => {
     expect(stderr).toBe("2 of 5 points are visible; x, y and z are columns 1, 2, 3; 2 without a position\n");
   });
 
-  it("an empty cloud stays one", async () => {
-    expect((await filtered("empty.ply", bytes(plyHeader("ascii", 0)))).toString("latin1")).toBe(plyHeader("ascii", 0));
-  });
+  it("an empty cloud stays one", async () =>
+    expect((await filtered("empty.ply", bytes(plyHeader("ascii", 0)))).toString("latin1")).toBe(plyHeader("ascii", 0)));
 
   const usage: [names: RegExp, args: string[]][] = [
     [/which file/, []],

@@ -43,28 +43,10 @@ describe("refusals", () => {
   const hyper = new PointCloud([0, 1, 2, 3], { dimension: 4 });
   const refusals: Refusal[] = [
     ["positions-length", /got 5\b.*multiple of 2/, () => new PointCloud([1, 2, 3, 4, 5], { dimension: 2 })],
-    [
-      "positions-length",
-      /got 6\b.*multiple of 4/,
-      () => {
-        hyper.append(new Float32Array(6));
-      },
-    ],
+    ["positions-length", /got 6\b.*multiple of 4/, () => hyper.append(new Float32Array(6))],
     ["non-finite", /index 1/, () => new PointCloud([1, 2, NaN, 4], { dimension: 2 })],
-    [
-      "non-finite",
-      /index 1/,
-      () => {
-        hyper.append([1, 2, 3, 4, 1, 2, 3, Infinity]);
-      },
-    ],
-    [
-      "option",
-      /index 1\b.*length 1/,
-      () => {
-        hyper.remove([1]);
-      },
-    ],
+    ["non-finite", /index 1/, () => hyper.append([1, 2, 3, 4, 1, 2, 3, Infinity])],
+    ["option", /index 1\b.*length 1/, () => hyper.remove([1])],
     ["option", /stride.*4/, () => new PointCloud([1, 2, 3, 4], { dimension: 4, stride: 3 })],
     ["viewpoint", /2 numbers.*3 of them/, () => plane.visibleFrom([0, 0, 5])],
     ["viewpoint", /NaN/, () => plane.visibleFrom([0, NaN])],

@@ -157,9 +157,8 @@ const refusals: Refusal[] = [
 describe("what is refused", () => {
   it.each(refusals)("%s, naming %s: case %#", expectRefusal);
 
-  it("goes on working after every refusal", () => {
-    expect(new PointCloud(sphere).visibleFrom(farAway).count).toBeGreaterThan(0);
-  });
+  it("goes on working after every refusal", () =>
+    expect(new PointCloud(sphere).visibleFrom(farAway).count).toBeGreaterThan(0));
 
   it("takes an option that is undefined as absent", () => {
     const plain = new PointCloud(sphere).visibleFrom(farAway);
@@ -209,20 +208,8 @@ describe("disposed", () => {
     cloud.dispose();
     expect((await problemOf(() => cloud.visibleFrom(farAway))).code).toBe("disposed");
     expect((await problemOf(() => cloud.autoRadius(farAway))).code).toBe("disposed");
-    expect(
-      (
-        await problemOf(() => {
-          cloud.append(sphere);
-        })
-      ).code,
-    ).toBe("disposed");
-    expect(
-      (
-        await problemOf(() => {
-          cloud.remove([0]);
-        })
-      ).code,
-    ).toBe("disposed");
+    expect((await problemOf(() => cloud.append(sphere))).code).toBe("disposed");
+    expect((await problemOf(() => cloud.remove([0]))).code).toBe("disposed");
   });
 
   it("does not touch other clouds, whose memory comes and goes", () => {
@@ -273,15 +260,9 @@ describe("too-large", () => {
     const before = cloud.visibleFrom(farAway);
     const filler = new small.PointCloud(bumpySphere(2, 50_000));
     for (const change of [
-      () => {
-        cloud.append(bumpySphere(3, 100_000));
-      },
-      () => {
-        cloud.append([...bumpySphere(3, 100_000)]);
-      },
-      () => {
-        cloud.remove(new Uint32Array(1_000_000));
-      },
+      () => cloud.append(bumpySphere(3, 100_000)),
+      () => cloud.append([...bumpySphere(3, 100_000)]),
+      () => cloud.remove(new Uint32Array(1_000_000)),
     ]) {
       expect((await problemOf(change)).code).toBe("too-large");
       expect(cloud).toHaveLength(500);

@@ -185,9 +185,7 @@ describe("a follower", () => {
     expect(scene.log).toEqual(["a: 1", "told a"]);
     expect(scene.follower.isBusy).toBe(false);
     scene.thrownByListener = new Error("a listener's own");
-    expect(() => {
-      scene.see("b");
-    }).toThrow(scene.thrownByListener);
+    expect(() => scene.see("b")).toThrow(scene.thrownByListener);
     expect(scene.log).toEqual(["a: 1", "told a", "b: 2", "told b"]);
   });
 
@@ -275,9 +273,7 @@ describe("a follower", () => {
   it("throws the first refusal if it is told to", () => {
     scene.atOnce.set("a", new Error("wrong at once"));
     scene.newest.want("a");
-    expect(() => {
-      scene.follower.follow(true);
-    }).toThrow("wrong at once");
+    expect(() => scene.follower.follow(true)).toThrow("wrong at once");
     expect(scene.log).toEqual([]);
   });
 

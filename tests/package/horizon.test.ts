@@ -37,22 +37,10 @@ describe("a horizon", () => {
     const horizon = new Horizon(viewpoint, options);
     horizon.add(sphere);
     const before = horizon.visible();
-    expect(
-      codeOf(() => {
-        horizon.add([0, 0, NaN]);
-      }),
-    ).toBe("non-finite");
-    expect(
-      codeOf(() => {
-        horizon.add([0, 0]);
-      }),
-    ).toBe("positions-length");
+    expect(codeOf(() => horizon.add([0, 0, NaN]))).toBe("non-finite");
+    expect(codeOf(() => horizon.add([0, 0]))).toBe("positions-length");
     expect(codeOf(() => horizon.screen(loose("points")))).toBe("positions-type");
-    expect(
-      codeOf(() => {
-        horizon.add([0, 0, 1e6]);
-      }),
-    ).toBe("radius");
+    expect(codeOf(() => horizon.add([0, 0, 1e6]))).toBe("radius");
     expect(codeOf(() => horizon.screen([0, 0, 1e6]))).toBe("radius");
     expect(codeOf(() => horizon.hidesBox([0, 0, 0], [1, 1, -1]))).toBe("option");
     expect(codeOf(() => horizon.hidesBox(loose([0, 0]), [1, 1, 1]))).toBe("option");
@@ -63,11 +51,7 @@ describe("a horizon", () => {
     expect(codeOf(() => new Horizon(viewpoint, { radius: -1 }))).toBe("radius");
     horizon.dispose();
     horizon.dispose();
-    expect(
-      codeOf(() => {
-        horizon.add(sphere);
-      }),
-    ).toBe("disposed");
+    expect(codeOf(() => horizon.add(sphere))).toBe("disposed");
     expect(codeOf(() => horizon.hidesBox([0, 0, 0], [1, 1, 1]))).toBe("disposed");
   });
 

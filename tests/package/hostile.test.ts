@@ -28,9 +28,7 @@ describe("an answer", () => {
     transferredAway(answer.indices);
     const target = new Uint8Array(500).fill(9);
     await expectRefusal("disposed", /transferred/, () => answer.mask());
-    await expectRefusal("disposed", /transferred/, () => {
-      answer.maskInto(target);
-    });
+    await expectRefusal("disposed", /transferred/, () => answer.maskInto(target));
     await expectRefusal("disposed", /transferred/, () => answer.indicesInto(new Uint32Array(500)));
     expect(target.every((byte) => byte === 9)).toBe(true);
     expect(answer.count).toBe(expected.count);
@@ -44,20 +42,12 @@ describe("an answer", () => {
     expect(expected.indicesInto(indices)).toBe(expected.count);
     expect([...indices.subarray(0, expected.count)]).toEqual([...expected.indices]);
 
-    await expectRefusal("option", /DataView$/, () => {
-      expected.maskInto(loose(new DataView(new ArrayBuffer(500))));
-    });
-    await expectRefusal("option", /length 0/, () => {
-      expected.maskInto(transferredAway(new Uint8Array(500)));
-    });
+    await expectRefusal("option", /DataView$/, () => expected.maskInto(loose(new DataView(new ArrayBuffer(500)))));
+    await expectRefusal("option", /length 0/, () => expected.maskInto(transferredAway(new Uint8Array(500))));
     const pretender = { __proto__: Uint8Array.prototype, length: 500 };
-    await expectRefusal("option", /maskInto/, () => {
-      expected.maskInto(loose(pretender));
-    });
+    await expectRefusal("option", /maskInto/, () => expected.maskInto(loose(pretender)));
     const none = new PointCloud([]).visibleFrom(farAway);
-    await expectRefusal("option", /maskInto/, () => {
-      none.maskInto(transferredAway(new Uint8Array(1)));
-    });
+    await expectRefusal("option", /maskInto/, () => none.maskInto(transferredAway(new Uint8Array(1))));
   });
 });
 

@@ -127,13 +127,7 @@ describe("initSync", () => {
     "rejects %s with the code load, and may be called again",
     async (input) => {
       const fresh = await freshPackage();
-      expect(
-        (
-          await problemOf(() => {
-            fresh.initSync(input as never);
-          })
-        ).code,
-      ).toBe("load");
+      expect((await problemOf(() => fresh.initSync(input as never))).code).toBe("load");
       fresh.initSync(wasmBytes());
       expectToWork(fresh);
     },

@@ -272,9 +272,7 @@ describe("recovers from the death of the worker", () => {
   /** Called with the first message of a worker. A fast worker sends it before anybody could ask for it. */
   let atFirstMessage: (worker: threads.Worker) => void = () => undefined;
   watchedWorkers((worker) => {
-    worker.once("message", () => {
-      atFirstMessage(worker);
-    });
+    worker.once("message", () => atFirstMessage(worker));
   });
 
   it("while it prepares several nodes", async () => {
@@ -288,9 +286,7 @@ describe("recovers from the death of the worker", () => {
       atFirstMessage = (worker) => {
         atFirstMessage = () => undefined;
         worker.removeAllListeners("message");
-        worker.terminate().then(() => {
-          resolve();
-        }, reject);
+        worker.terminate().then(() => resolve(), reject);
       };
     });
     scene.filter.update(scene.camera);

@@ -117,9 +117,7 @@ describe.each<[string, () => Promise<Cloud | WorkerCloud>]>([
   it("is refused if it is no answer", async () => {
     const cloud = await create();
     for (const value of [undefined, null, 1, {}, sphere, { indices: new Uint32Array(3) }]) {
-      const problem = await problemOf(() => {
-        cloud.recycle(loose(value));
-      });
+      const problem = await problemOf(() => cloud.recycle(loose(value)));
       expect(problem).toBeInstanceOf(HprError);
       expect([problem.code, problem.message]).toEqual(["option", expect.stringContaining("recycle")]);
     }

@@ -29,15 +29,7 @@ function byDefinition(options: VisibilityOptions): number[] {
   });
 }
 
-const choices = [
-  {},
-  { exponent: 2 },
-  { radius: 8 },
-  { inversion: { exponential: "auto" as const } },
-  { looks: 2 as const },
-  { vote: 3 },
-  { within: { distance: 2.2 } },
-];
+const choices = [{}, { radius: 8 }, { looks: 2 as const }, { within: { distance: 2.2 } }];
 
 it("the answer is that of a cloud with the one point more and the same radius", () => {
   const cloud = new PointCloud(positions);

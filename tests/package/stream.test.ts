@@ -212,9 +212,7 @@ describe("a stream", () => {
       );
     }
     const stream = cloud.follow();
-    expect(() => {
-      stream.look([1, 2]);
-    }).toThrow(HprError);
+    expect(() => stream.look([1, 2])).toThrow(HprError);
     stream.dispose();
   });
 

@@ -22,9 +22,7 @@ function abortable(): { signal: AbortSignal; abort: () => void } {
   const controller = new AbortController();
   return {
     signal: controller.signal,
-    abort: () => {
-      controller.abort();
-    },
+    abort: () => controller.abort(),
   };
 }
 

@@ -167,13 +167,9 @@ describe("a filter", () => {
     filter.addEventListener("change", () => {
       throw new Error("a listener's own");
     });
-    expect(() => {
-      filter.update(camera);
-    }).toThrow("a listener's own");
+    expect(() => filter.update(camera)).toThrow("a listener's own");
     camera.position.set(0, 5, 0);
-    expect(() => {
-      filter.update(camera);
-    }).toThrow("a listener's own");
+    expect(() => filter.update(camera)).toThrow("a listener's own");
     expect(errors).toEqual([]);
     expect(drawn(geometry)).toEqual([...new adapter.PointCloud(sphere).visibleFrom([0, 5, 0]).indices]);
   });

@@ -158,11 +158,7 @@ describe.each(VERSIONS)("with %s", (name, load) => {
       ["the camera's group moves", 1, ({ scene, camera }) => scene.add(group().add(camera).translateX(1))],
     ])("when %s: %i", (_, answers, change) => {
       const scene = sceneOf(adapter, sphere);
-      expect(
-        answersAfter(scene, scene.camera, () => {
-          change(scene);
-        }),
-      ).toBe(answers);
+      expect(answersAfter(scene, scene.camera, () => change(scene))).toBe(answers);
     });
 
     it.each<
@@ -183,11 +179,7 @@ describe.each(VERSIONS)("with %s", (name, load) => {
       const camera = new adapter.THREE.OrthographicCamera(-2, 2, 2, -2);
       scene.scene.add(camera);
       camera.rotation.set(0.4, 0.5, 0.6);
-      expect(
-        answersAfter(scene, camera, () => {
-          change(camera);
-        }),
-      ).toBe(answers);
+      expect(answersAfter(scene, camera, () => change(camera))).toBe(answers);
     });
   });
 

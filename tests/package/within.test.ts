@@ -50,6 +50,7 @@ it("the answer is that of a cloud of the chosen points alone", () => {
 });
 
 it("choices that make no sense are refused", async () => {
+  const between = (...corners: unknown[][]) => ({ box: corners });
   const cloud = new PointCloud(positions);
   const bad: [unknown, RegExp][] = [
     [5, /within: the options must be a plain object/],
@@ -58,42 +59,10 @@ it("choices that make no sense are refused", async () => {
     [{ distance: -1 }, /within distance must be from 0 to infinity, got -1/],
     [{ distance: NaN }, /within distance/],
     [{ box: [[0, 0, 0]] }, /within box must be \[min, max\], each with 3 numbers/],
-    [
-      {
-        box: [
-          [0, 0],
-          [1, 1],
-        ],
-      },
-      /within box/,
-    ],
-    [
-      {
-        box: [
-          [0, 0, "0"],
-          [1, 1, 1],
-        ],
-      },
-      /within box/,
-    ],
-    [
-      {
-        box: [
-          [0, 0, 0],
-          [1, 1, NaN],
-        ],
-      },
-      /within box/,
-    ],
-    [
-      {
-        box: [
-          [2, 0, 0],
-          [1, 1, 1],
-        ],
-      },
-      /no coordinate of min is above/,
-    ],
+    [between([0, 0], [1, 1]), /within box/],
+    [between([0, 0, "0"], [1, 1, 1]), /within box/],
+    [between([0, 0, 0], [1, 1, NaN]), /within box/],
+    [between([2, 0, 0], [1, 1, 1]), /no coordinate of min is above/],
     [{ mask: [1, 0] }, /within mask must be a Uint8Array/],
     [{ mask: new Uint8Array(3) }, /one element for each of 6000 indices, got 3/],
   ];
