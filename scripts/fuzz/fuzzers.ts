@@ -17,7 +17,6 @@ export interface Fuzzer {
 const FUNCTIONS: Record<string, { file: string; name: string }> = {
   files: { file: "tests/fuzz/files.ts", name: "fuzzFiles" },
   foreign: { file: "tests/fuzz/foreign.ts", name: "fuzzForeign" },
-  qhull: { file: "tests/fuzz/qhull.ts", name: "fuzzQhull" },
   border: { file: "tests/fuzz/border.ts", name: "fuzzBorder" },
   stream: { file: "tests/fuzz/stream.ts", name: "fuzzStream" },
 };

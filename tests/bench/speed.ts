@@ -39,7 +39,7 @@ const COLD =
   "to the bit.";
 const PEERS =
   "Milliseconds of the hull alone, and how many times longer that takes than the whole cold query, flip included. " +
-  "The last column counts labels that differ; `npm run fuzz -- --only qhull` judges such labels exactly. " +
+  "The last column counts labels that differ; where an exact program judged such labels, Qhull was wrong. " +
   `A peer is stopped after ${PEER_LIMIT_MS / 1000} s.`;
 
 /** The outcomes of all engines. They must give the same visible set and radius, to the bit. */

@@ -3,7 +3,16 @@ import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
 import { asciiPly, ball } from "./clouds.js";
 import { choose } from "./files.js";
-import { addressWritten, openPage, openReady, provoke, reached, status, upToDate } from "./support.js";
+import {
+  addressWritten,
+  openPage,
+  openReady,
+  provoke,
+  reached,
+  serveSmallDragon,
+  status,
+  upToDate,
+} from "./support.js";
 
 /** The page as a stranger finds it. */
 const withoutTools = async (page: Page) => {
@@ -101,6 +110,7 @@ test("Unfreeze looks at the present cloud, and not at the place where another on
 });
 
 test("who clicks before the first picture is there sees it still, divided in the middle", async () => {
+  serveSmallDragon();
   const page = await openPage("", { reducedMotion: "no-preference" }, async (opened) => {
     await withoutTools(opened);
     await opened.route("**/samples/*", async (route) => {

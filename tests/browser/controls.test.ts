@@ -133,7 +133,7 @@ test("the exponent is automatic, then the slider's, then automatic again", async
 });
 
 test("choosing the original up side gives the first view again", async () => {
-  const page = await openReady("?sample=room&looks=0");
+  const page = await openReady("?sample=dragon_res4&looks=0");
   const inside = await settled(page);
   await unfold(page, "Look");
   await page.locator("#up-axis").getByRole("radio", { name: "Z", exact: true }).check();
