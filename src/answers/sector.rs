@@ -101,7 +101,7 @@ impl PointCloud {
             }
         }
         if sector.number == 0 {
-            self.seen_from(memory, viewpoint, options)
+            self.seen_by(1, memory, viewpoint, options)
         } else {
             self.nothing_from(viewpoint, options)
         }

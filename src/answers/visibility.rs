@@ -216,20 +216,11 @@ impl PointCloud {
         options.check(QuestionKind::View)?;
         let part = self.part(Some(viewpoint), options)?;
         memory.see(options.steps(Some(viewpoint))?);
-        part.seen_from(memory, viewpoint, options)
+        part.seen_by(1, memory, viewpoint, options)
     }
 
-    /// The view of all points of this cloud, which takes no step to a part.
-    pub(crate) fn seen_from(
-        &self,
-        memory: &mut ViewMemory,
-        viewpoint: [f64; 3],
-        options: &Options,
-    ) -> Result<Visibility, Error> {
-        self.seen_by(1, memory, viewpoint, options)
-    }
-
-    /// The same with so many threads, which share views that can be divided.
+    /// The view of all points of this cloud, which takes no step to a part. So many threads share it where it can be
+    /// divided.
     #[inline(never)]
     pub(crate) fn seen_by(
         &self,
