@@ -40,7 +40,7 @@ impl<'py> Positions<'py> {
         let array = numpy
             .call_method1("asarray", (argument,))
             .map_err(|_| wrong("must be an array of numbers"))?;
-        let kind: String = array.getattr("dtype")?.getattr("kind")?.extract()?;
+        let kind = kind_of(&array)?;
         if !["f", "i", "u"].contains(&kind.as_str()) {
             // An empty list has no numbers, and no type either.
             return Err(wrong("must be real numbers"));
@@ -155,18 +155,24 @@ pub fn indices(argument: &Bound<'_, PyAny>, name: &str) -> PyResult<Vec<u32>> {
     if let Ok(array) = argument.extract::<PyReadonlyArray1<'_, u32>>() {
         return Ok(array.as_array().to_vec());
     }
-    let list = argument
+    listed(argument).extract::<Vec<u32>>().map_err(wrong)
+}
+
+/// An array as a list; anything else as it is.
+pub fn listed<'py>(argument: &Bound<'py, PyAny>) -> Bound<'py, PyAny> {
+    argument
         .call_method0("tolist")
-        .unwrap_or_else(|_| argument.clone());
-    list.extract::<Vec<u32>>().map_err(wrong)
+        .unwrap_or_else(|_| argument.clone())
+}
+
+/// What the items of an array are, as NumPy says it: "f", "i", "u", "b" and others.
+pub fn kind_of(array: &Bound<'_, PyAny>) -> PyResult<String> {
+    array.getattr("dtype")?.getattr("kind")?.extract()
 }
 
 /// Real numbers, one after another.
 pub fn numbers(argument: &Bound<'_, PyAny>, name: &str) -> PyResult<Vec<f64>> {
-    let list = argument
-        .call_method0("tolist")
-        .unwrap_or_else(|_| argument.clone());
-    list.extract().map_err(|_| {
+    listed(argument).extract().map_err(|_| {
         let message = format!("{name} must be a list of numbers");
         problem(argument.py(), "option", message)
     })

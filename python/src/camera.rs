@@ -4,7 +4,7 @@ use hidden_point_removal::{Camera, CameraModel, Convention, Pose, Seat};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::arrays::{each, numbers, place};
+use crate::arrays::{each, listed, numbers, place};
 use crate::failure::{option, problem};
 use crate::options::{self, number};
 
@@ -108,10 +108,7 @@ fn matrix(value: &Bound<'_, PyAny>) -> Option<[f64; 16]> {
     if let Ok(flat) = numbers(value, "matrix") {
         return flat.try_into().ok();
     }
-    let list = value
-        .call_method0("tolist")
-        .unwrap_or_else(|_| value.clone());
-    let rows: Vec<Vec<f64>> = list.extract().ok()?;
+    let rows: Vec<Vec<f64>> = listed(value).extract().ok()?;
     let is_square = rows.len() == 4 && rows.iter().all(|row| row.len() == 4);
     is_square.then(|| core::array::from_fn(|at| rows[at % 4][at / 4]))
 }

@@ -5,6 +5,7 @@ use numpy::PyReadonlyArray1;
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict};
 
+use crate::arrays::kind_of;
 use crate::failure::option;
 
 const NAMES: [&str; 12] = [
@@ -190,19 +191,9 @@ fn within(
 
 /// Truth values, or integers of which 0 is false.
 pub fn truths(py: Python<'_>, value: &Bound<'_, PyAny>) -> Option<Vec<bool>> {
-    let array = py
-        .import("numpy")
-        .ok()?
-        .call_method1("asarray", (value,))
-        .ok()?;
-    let kind: String = array
-        .getattr("dtype")
-        .ok()?
-        .getattr("kind")
-        .ok()?
-        .extract()
-        .ok()?;
-    if !["b", "i", "u"].contains(&kind.as_str()) {
+    let numpy = py.import("numpy").ok()?;
+    let array = numpy.call_method1("asarray", (value,)).ok()?;
+    if !["b", "i", "u"].contains(&&*kind_of(&array).ok()?) {
         return None;
     }
     let array = array.call_method1("astype", ("bool",)).ok()?;
@@ -217,28 +208,20 @@ pub fn radius(py: Python<'_>, name: &str, value: &Bound<'_, PyAny>) -> PyResult<
         ("search", Radius::Search),
         ("opposite", Radius::Opposite),
     ];
-    if name == "radius" {
-        if let Ok(word) = value.extract::<String>() {
-            if let Some((_, rule)) = words.iter().find(|(known, _)| *known == word) {
-                return Ok(*rule);
-            }
-        }
+    let wrong = |words| {
+        let given = shown(value);
+        option(py, format!("{name} must be a number{words}, got {given}"))
+    };
+    if name == "exponent" {
+        return number(value).map(Radius::Exponent).ok_or_else(|| wrong(""));
     }
-    match number(value) {
-        Some(number) if name == "radius" => Ok(Radius::Absolute(number)),
-        Some(number) => Ok(Radius::Exponent(number)),
-        None => {
-            let words = if name == "radius" {
-                r#" or "auto", "search" or "opposite""#
-            } else {
-                ""
-            };
-            Err(option(
-                py,
-                format!("{name} must be a number{words}, got {}", shown(value)),
-            ))
-        }
-    }
+    let word: Option<String> = value.extract().ok();
+    let rule = words
+        .iter()
+        .find(|(known, _)| word.as_deref() == Some(known));
+    rule.map(|(_, rule)| *rule)
+        .or_else(|| number(value).map(Radius::Absolute))
+        .ok_or_else(|| wrong(r#" or "auto", "search" or "opposite""#))
 }
 
 /// Reads an inversion.

@@ -5,7 +5,7 @@ use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::arrays::{Points, Positions, place};
+use crate::arrays::{Points, Positions, listed, place};
 use crate::failure::{option, refused};
 use crate::options;
 
@@ -47,10 +47,7 @@ fn read_ids(argument: &Bound<'_, PyAny>, number: usize) -> PyResult<Vec<u64>> {
     if let Ok(array) = argument.extract::<PyReadonlyArray1<'_, u64>>() {
         return Ok(array.as_array().to_vec());
     }
-    let list = argument
-        .call_method0("tolist")
-        .unwrap_or_else(|_| argument.clone());
-    list.extract::<Vec<u64>>().map_err(|_| {
+    listed(argument).extract::<Vec<u64>>().map_err(|_| {
         option(
             py,
             format!("the ids of parts[{number}] must be integers from 0 to 2**64 - 1"),

@@ -1,7 +1,9 @@
 //! Which cameras see each point, and normals that are turned towards them.
 
+use std::ops::Neg;
+
 use hidden_point_removal::{Camera, CameraView, Error, Options, Threads};
-use numpy::{IntoPyArray, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
+use numpy::{Element, IntoPyArray, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 
 use crate::arrays::{Points, Positions};
@@ -103,24 +105,10 @@ pub fn orient_normals<'py>(
         let message = format!("normals must have the shape ({indices}, 3), got {count} of them");
         return Err(option(py, message));
     }
-    Ok(match points {
-        Points::Single(rows) => {
-            let turned = py.detach(|| turned(rows, &offsets, &towards, |x| -x));
-            turned
-                .into_flattened()
-                .into_pyarray(py)
-                .reshape([count, 3])?
-                .into_any()
-        }
-        Points::Double(rows) => {
-            let turned = py.detach(|| turned(rows, &offsets, &towards, |x| -x));
-            turned
-                .into_flattened()
-                .into_pyarray(py)
-                .reshape([count, 3])?
-                .into_any()
-        }
-    })
+    match points {
+        Points::Single(rows) => turned(py, rows, &offsets, &towards),
+        Points::Double(rows) => turned(py, rows, &offsets, &towards),
+    }
 }
 
 /// The rows, whose offsets rise from 0 to the number of directions.
@@ -139,12 +127,12 @@ fn directions(seen_by: &Bound<'_, PyAny>) -> Option<(Vec<u32>, Vec<[f32; 3]>)> {
     is_whole.then_some((offsets, towards))
 }
 
-fn turned<T: Copy + Into<f64>>(
+fn turned<'py, T: Element + Copy + Into<f64> + Neg<Output = T>>(
+    py: Python<'py>,
     normals: &[[T; 3]],
     offsets: &[u32],
     towards: &[[f32; 3]],
-    negative: impl Fn(T) -> T,
-) -> Vec<[T; 3]> {
+) -> PyResult<Bound<'py, PyAny>> {
     let turn = |(normal, range): (&[T; 3], &[u32])| {
         let (mut votes, mut sum) = (0, 0.0);
         for direction in &towards[range[0] as usize..range[1] as usize] {
@@ -155,10 +143,15 @@ fn turned<T: Copy + Into<f64>>(
             sum += cosine;
         }
         if votes < 0 || (votes == 0 && sum < 0.0) {
-            normal.map(&negative)
+            normal.map(Neg::neg)
         } else {
             *normal
         }
     };
-    normals.iter().zip(offsets.windows(2)).map(turn).collect()
+    let turned = || normals.iter().zip(offsets.windows(2)).flat_map(turn);
+    let turned: Vec<T> = py.detach(|| turned().collect());
+    Ok(turned
+        .into_pyarray(py)
+        .reshape([normals.len(), 3])?
+        .into_any())
 }

@@ -5,7 +5,7 @@ use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::arrays::{place, places};
+use crate::arrays::{kind_of, place, places};
 use crate::cloud::PointCloud;
 use crate::failure::option;
 use crate::map::{self, VisibilityMap};
@@ -124,10 +124,9 @@ fn corners(given: &Bound<'_, PyAny>, points: usize) -> PyResult<Vec<[u32; 3]>> {
             format!("triangles must be an (n, 3) array of indices below {points}"),
         )
     };
-    let array = py
-        .import("numpy")?
-        .call_method1("ascontiguousarray", (given,))?;
-    let kind: String = array.getattr("dtype")?.getattr("kind")?.extract()?;
+    let numpy = py.import("numpy")?;
+    let array = numpy.call_method1("ascontiguousarray", (given,))?;
+    let kind = kind_of(&array)?;
     let shape: Vec<usize> = array.getattr("shape")?.extract()?;
     if !["i", "u"].contains(&kind.as_str()) || shape.len() != 2 || shape[1] != 3 {
         return Err(wrong());

@@ -5,7 +5,7 @@ use numpy::{IntoPyArray, PyArray1, PyReadonlyArrayDyn, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyString};
 
-use crate::arrays::each;
+use crate::arrays::{each, kind_of};
 use crate::camera;
 use crate::cloud::PointCloud;
 use crate::failure::{option, problem};
@@ -293,10 +293,8 @@ fn pixels<'py>(given: &Bound<'py, PyAny>, name: &str) -> PyResult<Pixels<'py>> {
         let array = numpy.call_method1("asarray", (given,));
         array.map_err(|_| wrong())?
     };
-    let dtype = array.getattr("dtype")?;
-    let kind: String = dtype.getattr("kind")?.extract()?;
-    let size: usize = dtype.getattr("itemsize")?.extract()?;
-    let precision = match (kind.as_str(), size) {
+    let size: usize = array.getattr("dtype")?.getattr("itemsize")?.extract()?;
+    let precision = match (&*kind_of(&array)?, size) {
         ("u", 1) => "uint8",
         ("b", _) | ("i" | "u", 1 | 2) | ("f", 2 | 4) => "float32",
         ("i" | "u" | "f", _) => "float64",
