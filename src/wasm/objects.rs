@@ -1,42 +1,32 @@
 //! JavaScript objects, made field by field.
 
+use serde::{Serialize, Serializer};
 use wasm_bindgen::prelude::*;
-
-#[wasm_bindgen]
-extern "C" {
-    #[wasm_bindgen(js_name = Object)]
-    type Fields;
-    #[wasm_bindgen(constructor, js_class = "Object")]
-    fn new() -> Fields;
-    #[wasm_bindgen(method, structural, indexing_setter)]
-    fn set(this: &Fields, name: &str, value: &JsValue);
-}
 
 #[inline(never)]
 pub(super) fn object(fields: &[(&str, &JsValue)]) -> JsValue {
-    let object = Fields::new();
-    for (name, value) in fields {
-        object.set(name, value);
+    struct Kept<'a>(&'a JsValue);
+    impl Serialize for Kept<'_> {
+        fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+            serde_wasm_bindgen::preserve::serialize(self.0, serializer)
+        }
     }
-    object.into()
+    named(fields.iter().map(|&(name, value)| (name, Kept(value))))
 }
 
 /// An object whose fields are numbers.
 #[inline(never)]
 pub(super) fn numbered(fields: &[(&str, f64)]) -> JsValue {
-    let object = Fields::new();
-    for (name, value) in fields {
-        object.set(name, &(*value).into());
-    }
-    object.into()
+    named(fields.iter().copied())
 }
 
 /// A list of numbers.
 #[inline(never)]
 pub(super) fn list(numbers: &[f64]) -> JsValue {
-    numbers
-        .iter()
-        .map(|&number| JsValue::from(number))
-        .collect::<js_sys::Array>()
-        .into()
+    serde_wasm_bindgen::to_value(numbers).unwrap_or_else(JsValue::from)
+}
+
+fn named<'a>(fields: impl Iterator<Item = (&'a str, impl Serialize)>) -> JsValue {
+    let serializer = serde_wasm_bindgen::Serializer::new().serialize_maps_as_objects(true);
+    serializer.collect_map(fields).unwrap_or_else(JsValue::from)
 }

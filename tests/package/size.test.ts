@@ -26,6 +26,6 @@ it("the wasm stays small", () => {
 });
 
 // What of the crate it leaves out stands in src/base/build.rs and src/wasm/mod.rs. It has 41,992 bytes.
-it("the wasm of the operator alone stays at most 42.3 kB, gzipped", () => {
-  expect(gzipSync(liteBytes(), { level: 9 }).length).toBeLessThanOrEqual(42_300);
+it("the wasm of the operator alone stays at most 42.6 kB, gzipped", () => {
+  expect(gzipSync(liteBytes(), { level: 9 }).length).toBeLessThanOrEqual(42_600);
 });
