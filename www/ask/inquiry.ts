@@ -94,8 +94,6 @@ export class Inquiry {
     },
     ONCE,
   );
-  /** The last answer from one hull. */
-  #hull: TimedView | null = null;
   /** Since when the worker can take the next question. */
   #freeSince = 0;
   #hasMaps = false;
@@ -199,18 +197,14 @@ export class Inquiry {
     }
   }
 
-  /** The number of the stage that comes first when only settings have changed. */
+  /**
+   * The number of the stage that comes first when only settings have changed: the final one, since an earlier one would
+   * show points that the picture no longer has.
+   */
   #firstOf(stages: Stage<ViewQuestion>[]): number {
     const last = this.#answered;
-    const numberOf = (question: ViewQuestion) =>
-      stages.findIndex(({ options }) => isSameView(options, question, this.#size));
     if (!last || !isSamePlace(last.viewpoint, this.#wanted!.viewpoint, this.#size)) return 0;
-    const reached = numberOf(last);
-    if (reached >= 0) return reached + 1;
-    // A draft would show points that the picture no longer has.
-    const next = stages.findIndex(({ kind }) => kind !== "draft" && kind !== "map");
-    const isKnown = this.#hull !== null && numberOf(this.#hull.question) === next;
-    return isKnown ? Math.min(next + 1, stages.length - 1) : next;
+    return isSameView(last, this.#wanted!, this.#size) ? stages.length : stages.length - 1;
   }
 
   #viewRound(): Round | undefined {
@@ -275,9 +269,7 @@ export class Inquiry {
     this.#freeSince = performance.now();
     this.#answered = question;
     const kind = kindOf(question) as TimedView["kind"];
-    const view = { ...answer, kind, asked, milliseconds: this.#freeSince - begun };
-    if (view.kind === "operator") this.#hull = view;
-    return this.told(view);
+    return this.told({ ...answer, kind, asked, milliseconds: this.#freeSince - begun });
   }
 }
 
