@@ -11,15 +11,17 @@ use glam::DVec3;
 use crate::answers::looks::{Corners, Triangle, longest_of};
 use crate::answers::visibility_map::depths::{NOWHERE, each_corner, stored};
 use crate::answers::visibility_map::hides::VisibilityMap;
-use crate::base::allocation::{filled, with_capacity};
+use crate::base::allocation::{OutOfMemory, filled, with_capacity};
 use crate::base::error::Error;
 use crate::base::real::{larger, square_root};
 use crate::cloud::points::Points;
 use crate::flip::inversion::Flip;
-use crate::hull::{Memory, Reaches, direction};
+use crate::hull::{Memory, Reaches, Window, direction};
 
 /// How many longest edges behind it a triangle hides a point: one that is surface, and another one.
 const BEHIND: [f64; 2] = [2.0, 4.0];
+/// How far into a cell an edge reaches: a camera that has moved on sees past it.
+const BESIDE: f32 = 0.25;
 /// The triangles along one in so many corners tell how long those of a surface are.
 const SAMPLE: usize = 16;
 /// The hull of a map, and how far behind a surface a point may be besides.
@@ -79,9 +81,35 @@ impl VisibilityMap {
                 }
             },
         );
+        spread(&reaches.windows, &mut distances)?;
         self.set(&reaches, &distances)?;
         Ok(())
     }
+}
+
+/// Takes the distance of each corner a part of the way to those beside it that are larger.
+fn spread(windows: &[Window; 6], distances: &mut [f32]) -> Result<(), OutOfMemory> {
+    let mut before = with_capacity(distances.len())?;
+    before.extend_from_slice(distances);
+    for window in windows {
+        let corners = window.first..window.first + window.corners();
+        let before = &before[corners.clone()];
+        let across = window.columns + 1;
+        for (at, distance) in distances[corners].iter_mut().enumerate() {
+            let own = *distance;
+            // Beyond the end of a row comes another one: a border may hide less.
+            for beside in [
+                at.wrapping_sub(1),
+                at + 1,
+                at.wrapping_sub(across),
+                at + across,
+            ] {
+                let other = before.get(beside).map_or(own, |&other| other);
+                *distance = distance.max(own + (other - own) * BESIDE);
+            }
+        }
+    }
+    Ok(())
 }
 
 /// Passes the triangle along every `step`th corner, the corner's index and its direction.
