@@ -3,7 +3,7 @@
 use alloc::sync::Arc;
 
 use crate::answers::looks::{Question, Seen, Series};
-use crate::answers::visibility_map::kept::MapMemory;
+use crate::answers::visibility_map::pool::MapMemory;
 use crate::base::error::Error;
 use crate::cloud::part::Steps;
 use crate::cloud::point_cloud::{PointCloud, Survey};

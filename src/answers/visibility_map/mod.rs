@@ -10,9 +10,8 @@
 
 mod depths;
 mod hides;
-pub(crate) mod kept;
 mod options;
-mod pool;
+pub(crate) mod pool;
 mod surface;
 
 use crate::answers::looks::{look_of_map, looked_at};
@@ -28,9 +27,8 @@ use crate::view::options::Options;
 use crate::view::refusals::QuestionKind;
 use crate::view::resolved::looks;
 pub use hides::VisibilityMap;
-use kept::MapMemory;
 pub use options::MapOptions;
-use pool::{FEW, Need, Pool};
+use pool::{FEW, MapMemory, Need, Pool};
 use surface::Look;
 
 /// Distances in a map are between the first number and the last one, in the cloud's units.

@@ -12,24 +12,20 @@ use crate::answers::visibility_map::options::MapOptions;
 use crate::base::allocation::{OutOfMemory, filled, push, with_capacity};
 use crate::base::real::{larger, sine_cosine, smaller, square_root};
 use crate::cloud::points::Points;
-use crate::hull::{Window, place};
+use crate::hull::{Memory, Window, place};
 use crate::view::resolved::normalized;
 
 /// The most points of a pool for each point of a map.
 const TIMES: usize = 6;
-/// Where the radius tells how many are needed, a pool has one in so many points of the cloud, but at least `SMALL` and at
-/// most `LARGE`: to look through more would cost more than the hull.
+/// Where the radius tells how many are needed, a pool has one in so many points of the cloud, and one to four for each point
+/// of a map: to look through more would cost more than the hull.
 const PART: usize = 4;
-const SMALL: usize = 4 * FEW;
-const LARGE: usize = 16 * FEW;
 /// One in so many points of the pool shows where the cloud is seen.
 const STEP: usize = 16;
 /// At most so many cells for each that points are in, so that a grid takes little memory.
 const MOST_EMPTY: f64 = 8.0;
-/// A map has at least so many points, if the pool has as many; of a large cloud one in `ENOUGH_OF`, up to `ENOUGH`.
-pub(super) const FEW: usize = 8192;
-const ENOUGH: usize = 10_500;
-const ENOUGH_OF: usize = 42;
+/// A map has at least so many points, if the pool has as many.
+pub(super) const FEW: usize = 10_000;
 /// How many points there are for each that [`Need::ForRadius`] derives.
 const FOR_RADIUS: f64 = 1.25;
 /// How much wider than the given cone the points are, as a share of the angle.
@@ -44,8 +40,14 @@ pub(super) enum Need {
     ForRadius(f64),
 }
 
+/// What is kept from map to map: the pool of a cloud, and the room of the last map's hull.
+#[derive(Default)]
+pub(crate) struct MapMemory {
+    pub(super) hull: Memory,
+    pub(super) pool: Option<Pool>,
+}
+
 pub(super) struct Pool {
-    size: usize,
     /// Whether its points were moved to where they would be without noise.
     is_smooth: bool,
     /// How many points the cloud has.
@@ -62,24 +64,22 @@ impl Pool {
         map: &MapOptions,
         need: &Need,
     ) -> Result<&'a mut Self, OutOfMemory> {
-        let mut size = map.points.saturating_mul(TIMES).min(points.len());
-        if let Need::ForRadius(_) = need {
-            size = size.min((points.len() / PART).clamp(SMALL, LARGE));
-        }
-        let is_same = |pool: &Self| pool.size == size && pool.is_smooth == is_smooth;
-        let new = match kept.take().filter(is_same) {
-            Some(pool) => pool,
-            None => {
-                let all = points.len();
-                Self {
-                    size,
-                    is_smooth,
-                    all,
-                    points: points.gathered(&even_places(all, size)?)?,
-                }
-            }
+        let times = |times| map.points.saturating_mul(times);
+        let size = match need {
+            Need::OneIn(_) => times(TIMES),
+            Need::ForRadius(_) => (points.len() / PART).clamp(times(1), times(4)),
         };
-        Ok(kept.insert(new))
+        let size = size.min(points.len());
+        let is_same = |pool: &Self| pool.points.len() == size && pool.is_smooth == is_smooth;
+        let pool = match kept.take().filter(is_same) {
+            Some(pool) => pool,
+            None => Self {
+                is_smooth,
+                all: points.len(),
+                points: points.gathered(&even_places(points.len(), size)?)?,
+            },
+        };
+        Ok(kept.insert(pool))
     }
 
     /// The points that hide the most, and how many visible points of the cloud stand for each of them.
@@ -96,19 +96,17 @@ impl Pool {
         let stands_for = self.all as f64 / self.points.len().max(1) as f64;
         let mut is_chosen = filled(self.points.len(), false)?;
         let mut visible = 0.0;
-        if self.points.len() > FEW {
+        let few = FEW.min(map.points);
+        if self.points.len() > few {
             let every = self.points.iter().step_by(STEP);
             let sample = Sample::of(every.filter_map(|point| eye.sees(point)))?;
             visible = sample.near as f64 * STEP as f64 * stands_for;
-            let enough = (self.all / ENOUGH_OF).clamp(FEW, ENOUGH) as f64;
             let count = match need {
-                Need::OneIn(one_in) => larger(visible / one_in, FEW as f64),
-                Need::ForRadius(_) if sample.depth == 0.0 => enough,
-                Need::ForRadius(radius) => {
-                    larger(FOR_RADIUS * sample.area * radius / sample.depth, enough)
-                }
+                Need::OneIn(one_in) => visible / one_in,
+                Need::ForRadius(_) if sample.depth == 0.0 => 0.0,
+                Need::ForRadius(radius) => FOR_RADIUS * sample.area * radius / sample.depth,
             };
-            let count = smaller(count, map.points as f64);
+            let count = smaller(larger(count, few as f64), map.points as f64);
             let grid = Grid::new(&sample.extents, count * sample.empty);
             // The square of the distance, and the number of the point below it: a least number is found without a branch.
             let mut nearest = filled(grid.cells, u64::MAX)?;

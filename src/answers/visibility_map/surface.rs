@@ -98,12 +98,8 @@ fn spread(windows: &[Window; 6], distances: &mut [f32]) -> Result<(), OutOfMemor
         for (at, distance) in distances[corners].iter_mut().enumerate() {
             let own = *distance;
             // Beyond the end of a row comes another one: a border may hide less.
-            for beside in [
-                at.wrapping_sub(1),
-                at + 1,
-                at.wrapping_sub(across),
-                at + across,
-            ] {
+            let (left, below) = (at.wrapping_sub(1), at.wrapping_sub(across));
+            for beside in [left, at + 1, below, at + across] {
                 let other = before.get(beside).map_or(own, |&other| other);
                 *distance = distance.max(own + (other - own) * BESIDE);
             }
