@@ -9,7 +9,7 @@ use alloc::vec::Vec;
 use glam::DVec3;
 
 use crate::base::allocation::{OutOfMemory, filled, with_capacity};
-use crate::base::real::{floor, larger, smaller, square_root};
+use crate::base::real::{larger, smaller, square_root};
 use crate::hull::depth::{Window, place, turned};
 use crate::hull::dual_plane::Plane;
 use crate::hull::memory::Memory;
@@ -191,10 +191,10 @@ impl Reaches {
         let [a, b, c] = places;
         let range = |axis: usize, last: usize| {
             let [a, b, c] = [a[axis], b[axis], c[axis]];
-            let low = larger(smaller(smaller(a, b), c), -1.0);
+            let low = smaller(smaller(a, b), c);
             let high = smaller(larger(larger(a, b), c), last as f64);
-            // The first whole number above, which is at least 0.
-            ((low + 1.0) as u32 as f64, high)
+            // The first whole number above and the last one below; one too many is harmless.
+            ((low + 1.0) as u32, high as u32)
         };
         let (left, right) = range(0, window.columns);
         let (bottom, top) = range(1, window.rows);
@@ -209,7 +209,7 @@ impl Reaches {
         &mut self,
         side: usize,
         [a, mut b, mut c]: Places,
-        [left, right, bottom, top]: [f64; 4],
+        [left, right, bottom, top]: [u32; 4],
         id: FaceId,
         plane: &Plane,
     ) {
@@ -218,89 +218,81 @@ impl Reaches {
         if turn < 0.0 {
             core::mem::swap(&mut b, &mut c);
         }
-        let [p, q, r] = [
-            Edge::new(a, b, self),
-            Edge::new(b, c, self),
-            Edge::new(c, a, self),
-        ];
+        // A bound of the error of a comparison: places and corners are rounded by some units, and products reach over the
+        // whole window.
+        let largest: f64 = [a, b, c].as_flattened().iter().map(|x| x.abs()).sum();
+        let doubt =
+            64.0 * f64::EPSILON * (4.0 * self.cells_per_unit + largest) * (2.0 * largest + 1.0);
+        let [p, q, r] = [(a, b), (b, c), (c, a)].map(|(start, end)| Edge::new(start, end, doubt));
         let cell = 1.0 / self.cells_per_unit;
         let (to_right, up, ahead) = turned(side, plane.m);
         let m = plane.m.abs();
-        let doubt = (m.x + m.y + m.z) * HEIGHT_ERROR;
+        let height_doubt = (m.x + m.y + m.z) * HEIGHT_ERROR;
         let factor = 1.0 + 2.0 * plane.error;
-        let mut row = bottom;
-        while row <= top {
-            let [of_p, of_q, of_r] = [p.start(row), q.start(row), r.start(row)];
+        for row in bottom..=top {
+            let y = f64::from(row);
+            let [of_p, of_q, of_r] = [p.start(y), q.start(y), r.start(y)];
             let (mut first, mut last) = (left, right);
-            if last - first > 3.0 {
+            if last - first > 3 {
                 for (edge, start) in [(&p, of_p), (&q, of_q), (&r, of_r)] {
                     edge.narrow(start, &mut first, &mut last);
                 }
+                if first > last {
+                    continue;
+                }
             }
-            let along = up * (window.y + row * cell) + ahead;
+            let along = up * (window.y + y * cell) + ahead;
             let line = window.first + row as usize * (window.columns + 1);
-            let mut column = first;
-            while column <= last {
-                let height = to_right * (window.x + column * cell) + along;
-                let is_inside = (of_p > p.down * column)
-                    & (of_q > q.down * column)
-                    & (of_r > r.down * column)
-                    & (height > 0.0);
+            let run = line + first as usize..=line + last as usize;
+            let corners = self.heights[run.clone()]
+                .iter_mut()
+                .zip(&mut self.faces[run]);
+            for (column, (height, face)) in (first..).zip(corners) {
+                let x = f64::from(column);
+                let here = to_right * (window.x + x * cell) + along;
+                let is_inside =
+                    (of_p > p.down * x) & (of_q > q.down * x) & (of_r > r.down * x) & (here > 0.0);
                 // No processor can guess a branch here.
                 let keep = u64::from(is_inside).wrapping_sub(1);
-                let place = line + column as u32 as usize;
-                let known = (height * factor + doubt).to_bits();
-                let heights = &mut self.heights[place];
-                *heights = f64::from_bits(heights.to_bits() & keep | known & !keep);
-                let faces = &mut self.faces[place];
-                *faces = *faces & keep as u32 | id & !keep as u32;
-                column += 1.0;
+                let known = (here * factor + height_doubt).to_bits();
+                *height = f64::from_bits(height.to_bits() & keep | known & !keep);
+                *face = *face & keep as u32 | id & !keep as u32;
             }
-            row += 1.0;
         }
     }
 }
 
 /// An edge of a face in cells. The face is on its left.
 struct Edge {
-    x: f64,
-    y: f64,
     right: f64,
     down: f64,
-    /// A bound of the error of a comparison.
-    doubt: f64,
+    base: f64,
 }
 
 impl Edge {
     #[inline]
-    fn new([x, y]: [f64; 2], end: [f64; 2], grid: &Reaches) -> Self {
+    fn new([x, y]: [f64; 2], end: [f64; 2], doubt: f64) -> Self {
         let [right, down] = [end[0] - x, end[1] - y];
-        let length = right.abs() + down.abs();
-        // Places and corners are rounded by some units; products reach over the whole window.
-        let largest = x.abs() + y.abs() + end[0].abs() + end[1].abs();
-        let doubt = 64.0 * f64::EPSILON * (4.0 * grid.cells_per_unit + largest) * (length + 1.0);
         Self {
-            x,
-            y,
             right,
             down,
-            doubt,
+            base: down * x - right * y - doubt,
         }
     }
 
     /// A corner of this row is certainly on the left if this is more than `down` times its column.
     #[inline]
     fn start(&self, row: f64) -> f64 {
-        self.right * (row - self.y) + self.down * self.x - self.doubt
+        self.right * row + self.base
     }
 
     /// Leaves out columns of a row that are on the right of the edge, except for two.
-    fn narrow(&self, start: f64, first: &mut f64, last: &mut f64) {
+    fn narrow(&self, start: f64, first: &mut u32, last: &mut u32) {
         let crossing = start / self.down;
-        if self.down < 0.0 && crossing > *first {
-            *first = smaller(floor(crossing), *last + 1.0);
-        } else if self.down > 0.0 && crossing < *last {
-            *last = larger(floor(crossing) + 1.0, *first - 1.0);
+        if self.down < 0.0 {
+            *first = (*first).max(crossing as u32);
+        } else if self.down > 0.0 {
+            *last = (*last).min((crossing + 1.0) as u32);
         }
     }
 }
