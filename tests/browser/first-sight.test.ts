@@ -181,6 +181,7 @@ test("the drawer has the tools, and this device remembers it", async () => {
 });
 
 test("on a phone the picture keeps 70 % of the height", async () => {
+  serveSmallDragon();
   const page = await openReady("", PHONE, stranger);
   const top = await page.locator("#caption").evaluate((element) => element.getBoundingClientRect().top);
   expect(top / 844).toBeGreaterThan(0.7);
