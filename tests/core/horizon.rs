@@ -1,15 +1,13 @@
 //! Horizons: what a part of a cloud hides from other points and from boxes.
 
-use hidden_point_removal::{
-    Error, Exponential, Horizon, Inversion, Options, PointCloud, merge_visible,
-};
+use hidden_point_removal::{Exponential, Horizon, Inversion, Options, PointCloud, merge_visible};
 
 use crate::checks::boxes;
 use crate::common::flip::farthest;
 use crate::common::rng::Rng;
 use crate::common::scenes::Scene;
-use crate::common::shapes;
 use crate::common::structured;
+use crate::common::{refused, shapes};
 
 /// Options with numbers only, for points up to the distance of the farthest point.
 fn numbered(rng: &mut Rng, scene: &Scene) -> Option<Options> {
@@ -146,11 +144,9 @@ fn boxes_beside_the_viewpoint_are_never_hidden() {
 fn refusals_name_the_cause_and_change_nothing() {
     let options = Options::with_radius(3.0);
     let new = |viewpoint, options: &Options| Horizon::new(viewpoint, options).map(|_| ());
-    assert_eq!(new([0.0; 3], &Options::default()), Err(Error::MergeRadius));
-    assert!(matches!(
-        new([f64::NAN; 3], &options),
-        Err(Error::Viewpoint { .. })
-    ));
+    let merging = "merging needs the radius";
+    refused("option", merging, new([0.0; 3], &Options::default()));
+    refused("viewpoint", "", new([f64::NAN; 3], &options));
     let mut horizon = Horizon::new([0.0; 3], &options).unwrap();
     horizon
         .add(&[[1.0, 0.2, 0.2], [0.2, 1.0, 0.2], [0.2, 0.2, 1.0]])
@@ -158,24 +154,16 @@ fn refusals_name_the_cause_and_change_nothing() {
     let hidden = [[1.5, 1.5, 1.5]];
     assert_eq!(horizon.screen(&hidden), Ok(vec![]));
     let far = [[0.0, 0.0, 4.0]];
-    let too_small = Error::RadiusTooSmall {
-        radius: 3.0,
-        farthest: 4.0,
-    };
-    assert_eq!(horizon.add(&far), Err(too_small));
-    assert_eq!(horizon.screen(&far), Err(too_small));
+    let too_small = "radius 3 is smaller than the distance of the farthest point, 4";
+    refused("radius", too_small, horizon.add(&far));
+    refused("radius", too_small, horizon.screen(&far));
     let bad = [[0.0; 3], [f64::INFINITY; 3]];
-    let non_finite = Error::NonFinite { count: 1, first: 1 };
-    assert_eq!(horizon.add(&bad), Err(non_finite));
-    assert_eq!(horizon.screen(&bad), Err(non_finite));
-    assert_eq!(
-        horizon.hides_box([1.0; 3], [0.0; 3]),
-        Err(Error::BoundsInvalid)
-    );
-    assert_eq!(
-        horizon.hides_box([f64::NAN; 3], [1.0; 3]),
-        Err(Error::BoundsInvalid)
-    );
+    refused("non-finite", "index 1", horizon.add(&bad));
+    refused("non-finite", "index 1", horizon.screen(&bad));
+    for low in [1.0, f64::NAN] {
+        let found = horizon.hides_box([low; 3], [0.0; 3]);
+        refused("option", "a box must be", found);
+    }
     assert_eq!(horizon.screen(&hidden), Ok(vec![]));
     assert_eq!(horizon.visible().unwrap().len(), 3);
 }
