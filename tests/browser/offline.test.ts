@@ -16,7 +16,7 @@ let context: BrowserContext;
 beforeEach(async () => {
   extra = new Map();
   site = await servePage(extra);
-  context = await browser.newContext({ viewport: { width: 1000, height: 700 } });
+  context = await browser.newContext({ viewport: { width: 1000, height: 700 }, deviceScaleFactor: 0.5 });
 });
 
 afterEach(async () => {
