@@ -13,11 +13,7 @@ type Library = typeof import("copc");
 let started: Promise<LazPerf> | undefined;
 
 /** Opens a cloud-optimized point cloud (copc.io): an octree in one LAZ file. */
-export async function openCopc(
-  name: string,
-  read: RangeReader,
-  { lazPerf, colors }: Pick<OctreeSettings, "lazPerf" | "colors">,
-): Promise<Tree> {
+export async function openCopc(name: string, read: RangeReader, { lazPerf, colors }: OctreeSettings): Promise<Tree> {
   const library = await loadLibrary();
   let copc: Copc;
   try {

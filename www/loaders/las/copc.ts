@@ -1,19 +1,24 @@
-import { HprError } from "../../../src/ts/base/errors.js";
+import { Copc, type Hierarchy } from "copc";
 import type { LoadedCloud, Streamed } from "../../cloud/cloud.ts";
 import { displayScale } from "../../../src/ts/formats/colors.js";
 import { Contradictions } from "../../../src/ts/formats/contradictions.js";
 import { parseLasDetails } from "../../../src/ts/formats/las/details.js";
-import { decodeChunk, type LazPerf } from "../../../src/ts/formats/las/laz-perf.js";
+import { decodeChunk } from "../../../src/ts/formats/las/laz-perf.js";
 import { checkLazFormat, chunkParts, lazDamaged } from "../../../src/ts/formats/las/laz.js";
 import { RecordTaker } from "../../../src/ts/formats/las/read-las.js";
-import { openCopc } from "../../../src/ts/stream/copc.js";
-import { type RangeReader, readPart } from "../../../src/ts/stream/source.js";
-import type { OctreeNode } from "../../../src/ts/stream/tree.js";
+import { FormatProblem } from "../../../src/ts/formats/problem.js";
 import { LoadProblem } from "../problem.ts";
 import { type Loading, loaded } from "../loaded.ts";
 import { startLazPerf } from "./perf.ts";
 
+/** Reads bytes of the file, which may be on the device or on a server. */
+export type ReadRange = (from: number, to: number) => Promise<Uint8Array>;
+
+type Node = Hierarchy.Node;
+
 const HEAD = 1 << 16;
+const DEEPEST = 40;
+const LARGEST_PART = 1 << 28;
 /** The number of nodes that are requested ahead of the node being decompressed. */
 const AHEAD = 6;
 
@@ -25,7 +30,7 @@ const BUDGET = 4_000_000;
 const number = new Intl.NumberFormat("en-US");
 
 /** Whether a LAS file is an octree. */
-export async function isOctree(read: RangeReader): Promise<boolean> {
+export async function isOctree(read: ReadRange): Promise<boolean> {
   return parseLasDetails(await read(0, HEAD)).isCopc;
 }
 
@@ -36,7 +41,7 @@ export async function isOctree(read: RangeReader): Promise<boolean> {
  */
 export async function readCopc(
   reading: Omit<Loading, "blob">,
-  read: RangeReader,
+  read: ReadRange,
   from: string | Blob,
 ): Promise<LoadedCloud> {
   const { name, streamFrom = Infinity, onProgress } = reading;
@@ -45,29 +50,33 @@ export async function readCopc(
   if (header.count === 0) throw new LoadProblem(`${name} holds no points.`);
   const isStreamed = header.count > streamFrom;
   const limit = isStreamed ? Math.min(reading.limit, streamFrom, OVERVIEW) : reading.limit;
-  const lazPerf = startLazPerf(name);
-  const { nodes, points } = await chooseNodes(name, read, lazPerf, limit);
-  const perf = await lazPerf;
+  const { nodes, points } = await chooseNodes(name, read, limit, header.count);
+  const perf = await startLazPerf(name);
   const found = new Contradictions(false);
   const taker = new RecordTaker(header, { ...reading, limit }, found, points);
 
-  const asked: (Promise<Uint8Array> | undefined)[] = [];
+  const asked: Promise<Uint8Array>[] = [];
   const ask = (i: number) => {
-    const part = nodes[i] && readPart(name, read, nodes[i].part);
+    const node = nodes[i];
+    if (!node) return;
+    const part = read(node.pointDataOffset, node.pointDataOffset + node.pointDataLength);
     // This error is reported later, when the node's turn comes.
-    part?.catch(() => undefined);
-    asked[i] = part;
+    part.catch(() => undefined);
+    asked.push(part);
   };
   for (let i = 0; i < AHEAD; i++) ask(i);
-  for (const [i, { part, count }] of nodes.entries()) {
+  for (const [i, node] of nodes.entries()) {
     onProgress?.(i / nodes.length);
-    const compressed = await asked[i]!.catch(tell);
-    asked[i] = undefined;
+    const compressed = await asked[i]!;
+    asked[i] = Promise.resolve(compressed.subarray(0, 0));
     ask(i + AHEAD);
-    const { says } = chunkParts(compressed, count, header);
-    if (says !== undefined) found.add(`the chunk at byte ${part.offset} ${says}`);
+    if (compressed.length < node.pointDataLength) {
+      throw new LoadProblem(`${name} is broken: it ends before its points do.`);
+    }
+    const { says } = chunkParts(compressed, node.pointCount, header);
+    if (says !== undefined) found.add(`the chunk at byte ${node.pointDataOffset} ${says}`);
     try {
-      decodeChunk(perf, compressed, count, header, (view, at) => {
+      decodeChunk(perf, compressed, node.pointCount, header, (view, at) => {
         taker.take(view, at);
       });
     } catch {
@@ -121,26 +130,54 @@ function streamedFrom(streamed: Streamed, shown: string): Partial<LoadedCloud> {
 /** The nodes of the coarsest levels, up to the limit. */
 async function chooseNodes(
   name: string,
-  read: RangeReader,
-  lazPerf: Promise<LazPerf>,
+  read: ReadRange,
   limit: number,
-): Promise<{ nodes: OctreeNode[]; points: number }> {
-  const tree = await openCopc(name, read, { lazPerf, colors: false }).catch(tell);
-  const nodes: OctreeNode[] = [];
+  total: number,
+): Promise<{ nodes: Node[]; points: number }> {
+  const chosen: Node[] = [];
   let points = 0;
-  for (let level = [tree.root]; level.length > 0; level = level.flatMap(({ children }) => children)) {
-    // A page of its own may list a node and those below it.
-    for (const node of level) await tree.list(node).catch(tell);
-    const more = level.reduce((sum, { count }) => sum + count, 0);
-    if (points > 0 && points + more > limit) break;
-    nodes.push(...level.filter(({ count }) => count > 0));
-    points += more;
+  try {
+    const { info } = await Copc.create(read);
+    const levels: Node[][] = [];
+    const pages = [{ depth: 0, page: info.rootHierarchyPage }];
+    const known = new Set<number>();
+    for (let depth = 0; depth < DEEPEST; depth++) {
+      // The nodes below a level may be listed in separate pages.
+      for (let i = 0; i < pages.length; i++) {
+        const { depth: from, page } = pages[i]!;
+        if (from > depth) continue;
+        pages.splice(i--, 1);
+        if (!isPart(page.pageOffset, page.pageLength) || known.has(page.pageOffset)) throw lazDamaged();
+        known.add(page.pageOffset);
+        const listed = await Copc.loadHierarchyPage(read, page);
+        for (const [key, node] of Object.entries(listed.nodes)) {
+          if (node && node.pointCount > 0) (levels[depthOf(key)] ??= []).push(node);
+        }
+        for (const [key, next] of Object.entries(listed.pages)) {
+          if (next) pages.push({ depth: Math.max(depthOf(key), depth), page: next });
+        }
+      }
+      const level = levels[depth] ?? [];
+      if (level.length === 0 && pages.length === 0 && levels.length <= depth + 1) break;
+      const more = level.reduce((sum, node) => sum + node.pointCount, 0);
+      if (points + more > total) throw lazDamaged();
+      if (chosen.length > 0 && points + more > limit) break;
+      chosen.push(...level);
+      points += more;
+    }
+  } catch (error) {
+    if (error instanceof LoadProblem || error instanceof FormatProblem) throw error;
+    throw new LoadProblem(`${name} is broken: the list of its octree's nodes cannot be read.`);
   }
-  return { nodes, points };
+  if (chosen.length === 0) throw new LoadProblem(`${name} holds no points.`);
+  if (!chosen.every((node) => isPart(node.pointDataOffset, node.pointDataLength))) throw lazDamaged();
+  return { nodes: chosen, points };
 }
 
-/** Tells an error of the octree, whose message has the name of the file and the reason. */
-function tell(error: unknown): never {
-  if (!(error instanceof HprError)) throw error;
-  throw error.cause instanceof LoadProblem ? error.cause : new LoadProblem(`${error.message}.`);
+function depthOf(key: string): number {
+  return Number(key.split("-")[0]);
+}
+
+function isPart(offset: number, length: number): boolean {
+  return offset > 0 && length > 0 && length <= LARGEST_PART;
 }
