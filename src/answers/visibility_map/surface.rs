@@ -3,8 +3,8 @@
 //! Looks show points that no single hull shows, so what certainly hides for one hull may hide them. A map of
 //! looks decides as looks do, with wider margins, since it has fewer points. A point is hidden that lies
 //! farther behind the triangle before it, back in its place, than the triangle's longest edge allows, and that the
-//! map's hull hides as well: where looks are loose, as at far ground, both differ. This is not proved. It was chosen on
-//! 25 scans, simulated scans and clean clouds, where the worst map hid .70 % of what looks show; on 24 others, .65 %.
+//! map's hull hides as well: where looks are loose, as at far ground, both differ. This is not proved; docs/LOOKS.md tells
+//! how often it is wrong.
 
 use glam::DVec3;
 
