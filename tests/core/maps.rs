@@ -51,8 +51,7 @@ fn a_map_hides_no_visible_point() {
                     Inversion::Spherical => scene.options,
                     inversion => Options::with_inversion(inversion),
                 };
-                // The second map is made of the points that the first one does not hide.
-                for map in [small(), small(), MapOptions::default()] {
+                for map in [small(), MapOptions::default()] {
                     let Ok(seen) = cloud.visible_from(scene.viewpoint, &options) else {
                         continue;
                     };

@@ -120,11 +120,8 @@ impl Pool {
         // In the order of the pool, which is one along a curve.
         let count = is_chosen.iter().filter(|&&is_chosen| is_chosen).count();
         let mut chosen = with_capacity(count)?;
-        chosen.extend(
-            (0..)
-                .zip(&is_chosen)
-                .filter_map(|(number, &is)| is.then_some(number)),
-        );
+        let numbered = (0..).zip(&is_chosen);
+        chosen.extend(numbered.filter_map(|(number, &is)| is.then_some(number)));
         let stands_for = larger(visible / count.max(1) as f64, stands_for);
         Ok((self.points.gathered(&chosen)?, stands_for))
     }
