@@ -1,5 +1,6 @@
 import { expect, it } from "vitest";
 
+import { seeded } from "../bench/generators";
 import { bumpySphere, readyPackage } from "./support";
 
 const { PointCloud, VisibilityMap, cameraFromPose } = await readyPackage();
@@ -70,6 +71,32 @@ it("makes maps of parts, of looks, and towards a camera", () => {
   }
 });
 
+it("shows what looks with a thickness show beside an outline", () => {
+  // The sides of a box, which a thickness reveals. Without a wider margin, 8 % of these points are hidden.
+  const random = seeded(7);
+  const box = new Float64Array(90_000);
+  for (let i = 0; i < 30_000; i++) {
+    for (let axis = 0; axis < 3; axis++) box[3 * i + axis] = 2 * random() - 1;
+    box[3 * i + ((i % 6) >> 1)] = i % 2 === 0 ? -1 : 1;
+  }
+  const sides = new PointCloud(box);
+  for (const from of [
+    [1.5, 0, 0],
+    [3, 2, 1],
+  ] as const) {
+    const options = { looks: 3 as const, thickness: 2 * sides.spacing };
+    const { indices, count } = sides.visibleFrom(from, options);
+    const hidden = sides.visibilityMap(from, options).hides(box);
+    expect(indices.filter((index) => hidden[index]).length).toBeLessThan(0.01 * count);
+  }
+  sides.dispose();
+});
+
+it("has no more cells than points", () => {
+  const options = { radius: 1e9, points: 268_435_456 };
+  expect(cloud.visibilityMap(viewpoint, options)).toBeInstanceOf(VisibilityMap);
+});
+
 it("refuses what has no map", () => {
   const refused = (options: object, at: ArrayLike<number> = viewpoint) => {
     try {
@@ -93,6 +120,11 @@ it("refuses what has no map", () => {
   ];
   for (const options of wrong) expect([options, refused(options)]).toEqual([options, "option"]);
   expect(refused({ towards: { direction: [0, 0, 0], angle: 9 } })).toBe("viewpoint");
+  const lens = { fx: 400, fy: 400, cx: 320, cy: 240, width: 640, height: 480 };
+  for (const wrong of [{ fx: 0 }, { width: -1 }, { near: -1 }, { far: NaN }, { cx: Infinity }]) {
+    const towards = { ...cameraFromPose([0, 0, 4], [0, 0, 0, 1], lens, "opengl"), ...wrong };
+    expect([wrong, refused({ towards })]).toEqual([wrong, "viewpoint"]);
+  }
   expect(refused({ origin: [NaN, 0, 0] })).toBe("viewpoint");
   expect(refused({}, [NaN, 0, 0])).toBe("viewpoint");
   expect(refused({ radius: 0.001 })).toBe("radius");

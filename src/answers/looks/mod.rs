@@ -34,7 +34,7 @@ use crate::cloud::point_cloud::PointCloud;
 pub(crate) use corners::Corners;
 pub(crate) use look::Seen;
 pub(crate) use rays::Projection;
-pub(crate) use series::{Question, Series, even_scales, look_of_map, looked_at};
+pub(crate) use series::{Depth, Question, Series, even_scales, look_of_map, looked_at};
 pub(crate) use surface::longest_of;
 pub(crate) use triangle::Triangle;
 

@@ -47,8 +47,17 @@ fn scales_of(count: usize, tuning: &Tuning) -> [f64; 3] {
     scales
 }
 
-/// The hull of a map that stands in for looks: its flip, how far behind a surface a point may be, and the
-/// farthest distance of a point.
+/// Where points of a surface with a thickness may be visible.
+#[derive(Default)]
+pub(crate) struct Depth {
+    /// How far behind a surface.
+    pub behind: f64,
+    /// How far beside a visible point.
+    pub aside: f64,
+}
+
+/// The hull of a map that stands in for looks: its flip, where points may be visible besides, and the farthest
+/// distance of a point.
 #[inline(never)]
 pub(crate) fn look_of_map(
     cloud: &PointCloud,
@@ -56,7 +65,7 @@ pub(crate) fn look_of_map(
     viewpoint: [f64; 3],
     thickness: Option<f64>,
     apart: f64,
-) -> Result<(Flip, f64, f64), Error> {
+) -> Result<(Flip, Depth, f64), Error> {
     check_viewpoint(viewpoint)?;
     let points = &cloud.sequence.points;
     let farthest = cloud.blocks.farthest_distance(points, viewpoint)?;
@@ -68,7 +77,13 @@ pub(crate) fn look_of_map(
     if survey.is_some() && thickness.is_none() {
         behind += DEVIATIONS * cloud.noise()?;
     }
-    Ok((Flip::new(viewpoint, kernel), behind, farthest))
+    // The margins of a measured thickness are wide enough as they are.
+    let aside = thickness.map_or(0.0, |_| tuning.aside);
+    Ok((
+        Flip::new(viewpoint, kernel),
+        Depth { behind, aside },
+        farthest,
+    ))
 }
 
 /// What looks are asked for.

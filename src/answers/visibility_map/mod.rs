@@ -14,7 +14,7 @@ mod options;
 pub(crate) mod pool;
 mod surface;
 
-use crate::answers::looks::{look_of_map, looked_at};
+use crate::answers::looks::{Depth, look_of_map, looked_at};
 use crate::answers::memory::ViewMemory;
 use crate::base::error::Error;
 use crate::base::real::square_root;
@@ -131,12 +131,12 @@ impl PointCloud {
         };
         let pool = Pool::of(pool, points, is_smooth, map, &need)?;
         let (chosen, stands_for) = pool.choose(viewpoint, map, need)?;
-        let (flip, thickness, farthest) = match view {
+        let (flip, depth, farthest) = match view {
             None => {
                 let apart = square_root(stands_for);
                 look_of_map(self, survey.as_deref(), viewpoint, options.thickness, apart)?
             }
-            Some(view) => (view.flip, 0.0, view.farthest),
+            Some(view) => (view.flip, Depth::default(), view.farthest),
         };
         let mut made = VisibilityMap::empty(viewpoint, origin, moved);
         let reach = farthest + made.distance_of_origin();
@@ -152,7 +152,7 @@ impl PointCloud {
                 points: &chosen,
                 flip: &flip,
                 farthest,
-                thickness,
+                depth,
             };
             made.fill_by_surface(look, corners)?;
         } else if let Some(mut reaches) = hull.reaches(corners)? {

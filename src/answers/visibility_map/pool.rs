@@ -106,7 +106,9 @@ impl Pool {
                 Need::ForRadius(_) if sample.depth == 0.0 => 0.0,
                 Need::ForRadius(radius) => FOR_RADIUS * sample.area * radius / sample.depth,
             };
-            let count = smaller(larger(count, few as f64), map.points as f64);
+            // No more cells than there are points to be in them.
+            let most = map.points.min(self.points.len());
+            let count = smaller(larger(count, few as f64), most as f64);
             let grid = Grid::new(&sample.extents, count * sample.empty);
             let nearest = self.nearest(&eye, &grid)?;
             for nearest in nearest.into_iter().filter(|&nearest| nearest < u64::MAX) {

@@ -6,14 +6,15 @@
 //! map's hull hides as well: where looks are loose, as at far ground, both differ. This is not proved; docs/LOOKS.md tells
 //! how often it is wrong.
 
+use alloc::vec::Vec;
 use glam::DVec3;
 
-use crate::answers::looks::{Corners, Triangle, longest_of};
+use crate::answers::looks::{Corners, Depth, Triangle, longest_of};
 use crate::answers::visibility_map::depths::{NOWHERE, each_corner, stored};
 use crate::answers::visibility_map::hides::VisibilityMap;
 use crate::base::allocation::{OutOfMemory, filled, with_capacity};
 use crate::base::error::Error;
-use crate::base::real::{larger, square_root};
+use crate::base::real::{larger, smaller, square_root};
 use crate::cloud::points::Points;
 use crate::flip::inversion::Flip;
 use crate::hull::{Memory, Reaches, Window, direction};
@@ -24,13 +25,13 @@ const BEHIND: [f64; 2] = [2.0, 4.0];
 const BESIDE: f32 = 0.25;
 /// The triangles along one in so many corners tell how long those of a surface are.
 const SAMPLE: usize = 16;
-/// The hull of a map, and how far behind a surface a point may be besides.
+/// The hull of a map, and where points may be visible besides.
 pub(super) struct Look<'a> {
     pub hull: &'a mut Memory,
     pub points: &'a Points,
     pub flip: &'a Flip,
     pub farthest: f64,
-    pub thickness: f64,
+    pub depth: Depth,
 }
 
 impl VisibilityMap {
@@ -41,7 +42,7 @@ impl VisibilityMap {
             points,
             flip,
             farthest,
-            thickness,
+            depth: Depth { behind, aside },
         } = look;
         let place = |own: u32| DVec3::from_array(points.get(own as usize)) - flip.viewpoint();
         let Some(faces) = hull.outer_faces(points, flip, farthest)? else {
@@ -74,13 +75,16 @@ impl VisibilityMap {
                 let length = square_root(ahead.length_squared());
                 let before = triangle.crossing(ahead) * length;
                 let is_surface = triangle.longest <= longest * triangle.size;
-                let behind = BEHIND[usize::from(!is_surface)] * triangle.longest + thickness;
+                let behind = BEHIND[usize::from(!is_surface)] * triangle.longest + behind;
                 if before > 0.0 {
                     let reach = length / reaches.heights[place];
                     distances[place] = stored(larger(before + behind, flip.distance_at(reach)));
                 }
             },
         );
+        if aside > 0.0 {
+            widen(&reaches, aside, &mut distances)?;
+        }
         spread(&reaches.windows, &mut distances)?;
         self.set(&reaches, &distances)?;
         Ok(())
@@ -89,8 +93,7 @@ impl VisibilityMap {
 
 /// Takes the distance of each corner a part of the way to those beside it that are larger.
 fn spread(windows: &[Window; 6], distances: &mut [f32]) -> Result<(), OutOfMemory> {
-    let mut before = with_capacity(distances.len())?;
-    before.extend_from_slice(distances);
+    let before = copied(distances)?;
     for window in windows {
         let corners = window.first..window.first + window.corners();
         let before = &before[corners.clone()];
@@ -102,6 +105,60 @@ fn spread(windows: &[Window; 6], distances: &mut [f32]) -> Result<(), OutOfMemor
             for beside in [left, at + 1, below, at + across] {
                 let other = before.get(beside).map_or(own, |&other| other);
                 *distance = distance.max(own + (other - own) * BESIDE);
+            }
+        }
+    }
+    Ok(())
+}
+
+fn copied(distances: &[f32]) -> Result<Vec<f32>, OutOfMemory> {
+    let mut copy = with_capacity(distances.len())?;
+    copy.extend_from_slice(distances);
+    Ok(copy)
+}
+
+/// Gives each corner the largest distance of those that are at most `aside` beside it, where its surface is: a surface with
+/// a thickness shows what lies so near to its outline.
+fn widen(reaches: &Reaches, aside: f64, distances: &mut [f32]) -> Result<(), OutOfMemory> {
+    let cell = 1.0 / reaches.cells_per_unit;
+    let mut cells = with_capacity(distances.len())?;
+    let shares = distances
+        .iter()
+        .map(|&distance| aside / f64::from(distance));
+    cells.extend(shares);
+    for window in &reaches.windows {
+        each_corner(window, cell, &mut |place, _, squared| {
+            cells[place] *= squared / cell;
+        });
+        let corners = window.first..window.first + window.corners();
+        let (own, cells) = (&mut distances[corners.clone()], &cells[corners]);
+        let across = window.columns + 1;
+        let mut wider = copied(own)?;
+        for wide in &mut wider {
+            // Nothing is seen there.
+            if *wide == NOWHERE {
+                *wide = 0.0;
+            }
+        }
+        let most = cells.iter().fold(0.0, |most, &cells| larger(most, cells));
+        let mut width = 0;
+        while (width as f64) < smaller(most, wider.len() as f64) {
+            let before = width as f64;
+            // Without a gap: from [-a, a] to [-a - s, a + s], where s is at most 2a + 1.
+            let step = 2 * width + 1;
+            for by in [step, step * across] {
+                let narrow = copied(&wider)?;
+                for (at, widest) in wider.iter_mut().enumerate() {
+                    for beside in [at.wrapping_sub(by), at + by] {
+                        *widest = widest.max(narrow.get(beside).map_or(*widest, |&other| other));
+                    }
+                }
+            }
+            width += step;
+            for ((own, &wide), &cells) in own.iter_mut().zip(&wider).zip(cells) {
+                if cells > before && *own < NOWHERE {
+                    *own = wide;
+                }
             }
         }
     }

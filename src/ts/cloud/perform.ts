@@ -35,8 +35,9 @@ const performers: { [K in QueryKind]: (target: Target, query: Query<K>) => Answe
     return found(target, settings, answer);
   },
 
-  visibilityMap: ({ instance, handle }, { viewpoint, settings, map }) => {
+  visibilityMap: ({ instance, handle }, { viewpoint, settings, map, camera }) => {
     const [x, y, z] = viewpoint;
+    if (camera) instance.call((bindings) => bindings.cameraPlace(camera));
     const options = coreOptions(settings);
     return { ...instance.call((bindings) => bindings.visibilityMap(handle, x, y, z, options, map)), viewpoint };
   },

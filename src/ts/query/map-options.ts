@@ -1,5 +1,5 @@
 import { describe, HprError } from "../base/errors.js";
-import { type Camera, coneOf, isCamera, readCamera } from "./camera.js";
+import { type Camera, type CameraNumbers, coneOf, isCamera, readCamera } from "./camera.js";
 import { givenOptions, integer, number } from "./options.js";
 import { MOST_POINTS, readViewpoint, type Viewpoint } from "./positions.js";
 import { VIEW_OPTIONS, type VisibilityOptions } from "./view-options.js";
@@ -31,18 +31,25 @@ export interface VisibilityMapOptions extends VisibilityOptions {
 
 export const MAP_OPTIONS = [...VIEW_OPTIONS, "points", "corners", "towards", "origin"] as const;
 
-/** The choices in the order in which the core reads them (src/wasm/maps.rs). */
-export function mapNumbers(given: Record<string, unknown>): Float64Array<ArrayBuffer> {
+/** How a map is made, as the core reads it. */
+export interface MapNumbers {
+  /** The choices in the order of src/wasm/maps.rs. */
+  map: Float64Array<ArrayBuffer>;
+  /** The camera of `towards`, whose ranges the core checks. */
+  camera?: CameraNumbers | undefined;
+}
+
+export function mapNumbers(given: Record<string, unknown>): MapNumbers {
   const points = integer(given, "points", 16, MOST_POINTS) ?? 0;
   const corners = integer(given, "corners", 64, 4_194_304) ?? 0;
   const { towards, origin } = given;
-  const cone =
-    towards === undefined ? [0, 0, 0, 0] : isCamera(towards) ? coneOf(readCamera(towards)) : readCone(towards);
+  const camera = isCamera(towards) ? readCamera(towards) : undefined;
+  const cone = camera ? coneOf(camera) : towards === undefined ? [0, 0, 0, 0] : readCone(towards);
   const place = origin === undefined ? [Infinity, 0, 0] : readViewpoint(origin, 3, "origin");
   if (origin !== undefined && !place.every(Number.isFinite)) {
     throw new HprError("viewpoint", `the origin must be finite, got ${place.join(", ")}`);
   }
-  return Float64Array.of(points, corners, ...cone, ...place);
+  return { map: Float64Array.of(points, corners, ...cone, ...place), camera };
 }
 
 function readCone(towards: unknown): number[] {

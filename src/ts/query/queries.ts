@@ -1,7 +1,7 @@
 import { describe, HprError } from "../base/errors.js";
 import { allocating } from "../base/memory.js";
 import { readCamera } from "./camera.js";
-import { mapNumbers } from "./map-options.js";
+import { mapNumbers, type MapNumbers } from "./map-options.js";
 import { type PanoramaSize, panoramaSize } from "./panorama-options.js";
 import { type CloudSettings, integer, number } from "./options.js";
 import { packed, readPositions, readViewpoint, readViewpoints } from "./positions.js";
@@ -57,8 +57,7 @@ export interface Sector {
 export interface Questions {
   /** `divisible`: whether the view can be divided into sectors, and gains by it. */
   visibleFrom: { viewpoint: number[]; settings: ViewSettings; divisible: boolean; sector?: Sector };
-  /** `map`: see `mapNumbers`. */
-  visibilityMap: { viewpoint: [number, number, number]; settings: ViewSettings; map: Float64Array<ArrayBuffer> };
+  visibilityMap: MapNumbers & { viewpoint: [number, number, number]; settings: ViewSettings };
   panorama: PanoramaSize & { viewpoint: number[]; settings: ViewSettings };
   visibleFromDirection: { direction: number[]; settings: ViewSettings };
   /** Asks for points visible from at least `k` of the viewpoints. These are stored one after another. */
@@ -138,7 +137,7 @@ export function seesQuery(
 export function mapQuery(dimension: number, viewpoint: unknown, given: GivenOptions): Query<"visibilityMap"> {
   requireSpace("visibilityMap", dimension);
   const place = readViewpoint(viewpoint, 3) as [number, number, number];
-  return { kind: "visibilityMap", viewpoint: place, settings: viewSettings(given, dimension), map: mapNumbers(given) };
+  return { kind: "visibilityMap", viewpoint: place, settings: viewSettings(given, dimension), ...mapNumbers(given) };
 }
 
 export function panoramaQuery(dimension: number, viewpoint: unknown, given: GivenOptions): Query<"panorama"> {
