@@ -17,7 +17,7 @@ use crate::view::resolved::normalized;
 
 /// The most points of a pool for each point of a map.
 const TIMES: usize = 6;
-/// Where the radius tells how many are needed, a pool has one in so many points of the cloud, and one to four for each point
+/// Where the radius tells how many are needed, a pool has one in so many points of the cloud, and 1 to 3.5 for each point
 /// of a map: to look through more would cost more than the hull.
 const PART: usize = 5;
 /// One in so many points of the pool shows where the cloud is seen.
@@ -67,7 +67,7 @@ impl Pool {
         let times = |times| map.points.saturating_mul(times);
         let size = match need {
             Need::OneIn(_) => times(TIMES),
-            Need::ForRadius(_) => (points.len() / PART).clamp(times(1), times(4)),
+            Need::ForRadius(_) => (points.len() / PART).min(times(7) / 2).max(times(1)),
         };
         let size = size.min(points.len());
         let is_same = |pool: &Self| pool.points.len() == size && pool.is_smooth == is_smooth;
