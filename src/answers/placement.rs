@@ -3,7 +3,7 @@
 use alloc::vec::Vec;
 
 use crate::answers::threads::Threads;
-use crate::base::allocation::{filled, reserve, with_capacity};
+use crate::base::allocation::{copied, filled, reserve, with_capacity};
 use crate::base::error::{Error, in_range};
 use crate::cloud::point_cloud::PointCloud;
 use crate::view::options::Options;
@@ -277,8 +277,7 @@ fn lengthen<T: Copy>(list: &mut Vec<T>, len: usize, value: T) -> Result<(), Erro
 
 /// The numbers of the `count` highest gains, as far as they are above 0.
 fn highest_of(gains: &[f64], count: usize) -> Result<Vec<usize>, Error> {
-    let mut others: Vec<f64> = with_capacity(gains.len())?;
-    others.extend_from_slice(gains);
+    let mut others = copied(gains)?;
     let mut numbers: Vec<usize> = with_capacity(count.min(gains.len()))?;
     while let Some(next) = highest(&others).filter(|_| numbers.len() < count) {
         numbers.push(next);

@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 use crate::answers::looks::{Projection, Question, even_scales, scores_of_indices};
 use crate::answers::memory::ViewMemory;
 use crate::answers::threads::Threads;
-use crate::base::allocation::{OutOfMemory, filled, with_capacity};
+use crate::base::allocation::{OutOfMemory, copied, filled, with_capacity};
 use crate::base::bits::{bits_of, places};
 use crate::base::build::FULL;
 use crate::base::error::Error;
@@ -317,8 +317,7 @@ impl PointCloud {
         let visible = self.voted(seen.visible, options)?;
         let chosen = ChosenRadius::unit(0.0);
         let answer = self.answer(&visible, options, chosen, options.inversion)?;
-        let mut looks = with_capacity(count)?;
-        looks.extend_from_slice(&seen.scales[..count]);
+        let looks = copied(&seen.scales[..count])?;
         Ok(Visibility {
             scores,
             looks,
@@ -350,8 +349,7 @@ impl PointCloud {
         answer.exact = options.is_exact();
         if let Inversion::Looks(count) = inversion {
             let scales = even_scales(count, &self.statistics()?);
-            answer.looks = with_capacity(count)?;
-            answer.looks.extend_from_slice(&scales[..count]);
+            answer.looks = copied(&scales[..count])?;
         }
         Ok(answer)
     }

@@ -31,6 +31,14 @@ pub(crate) fn with_capacity<T>(count: usize) -> Result<Vec<T>, OutOfMemory> {
     Ok(items)
 }
 
+/// A vector of the same items.
+#[inline(never)]
+pub(crate) fn copied<T: Copy>(items: &[T]) -> Result<Vec<T>, OutOfMemory> {
+    let mut copy = with_capacity(items.len())?;
+    copy.extend_from_slice(items);
+    Ok(copy)
+}
+
 /// A vector that holds `value` `count` times.
 #[inline(never)]
 pub(crate) fn filled<T: Clone>(count: usize, value: T) -> Result<Vec<T>, OutOfMemory> {

@@ -6,13 +6,12 @@
 //! map's hull hides as well: where looks are loose, as at far ground, both differ. This is not proved; docs/LOOKS.md tells
 //! how often it is wrong.
 
-use alloc::vec::Vec;
 use glam::DVec3;
 
 use crate::answers::looks::{Corners, Depth, Triangle, longest_of};
 use crate::answers::visibility_map::depths::{NOWHERE, each_corner, stored};
 use crate::answers::visibility_map::hides::VisibilityMap;
-use crate::base::allocation::{OutOfMemory, filled, with_capacity};
+use crate::base::allocation::{OutOfMemory, copied, filled, with_capacity};
 use crate::base::error::Error;
 use crate::base::real::{larger, smaller, square_root};
 use crate::cloud::points::Points;
@@ -109,12 +108,6 @@ fn spread(windows: &[Window; 6], distances: &mut [f32]) -> Result<(), OutOfMemor
         }
     }
     Ok(())
-}
-
-fn copied(distances: &[f32]) -> Result<Vec<f32>, OutOfMemory> {
-    let mut copy = with_capacity(distances.len())?;
-    copy.extend_from_slice(distances);
-    Ok(copy)
 }
 
 /// Gives each corner the largest distance of those that are at most `aside` beside it, where its surface is: a surface with
