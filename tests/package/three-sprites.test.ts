@@ -15,7 +15,7 @@ const cloud = new PointCloud(positions);
 function scene() {
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute("position", new THREE.BufferAttribute(positions, 3));
-  const filter = new HiddenPointFilter(new THREE.Points(geometry), { worker: false });
+  const filter = new HiddenPointFilter(new THREE.Points(geometry), { worker: false, settle: false });
   const camera = new THREE.PerspectiveCamera();
   const lookFrom = (...place: [number, number, number]) => {
     camera.position.set(...place);

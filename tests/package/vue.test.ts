@@ -40,7 +40,7 @@ it("a filter for three.js", async () => {
   const camera = new PerspectiveCamera();
   camera.position.set(0, 0, 5);
   camera.updateMatrixWorld();
-  const filter = reactive(new HiddenPointFilter(new Points(geometry), { worker: false }));
+  const filter = reactive(new HiddenPointFilter(new Points(geometry), { worker: false, settle: false }));
   filter.update(camera);
   await filter.ready;
   expect(filter.visibleCount).toBe(2);
