@@ -21,6 +21,14 @@ export class CountedWorker extends OriginalWorker {
   }
 }
 
+/** Workers that run this script before their own. */
+export const workersAfter = (script: string, workerData?: unknown): typeof threads.Worker =>
+  class extends CountedWorker {
+    constructor(address: string | URL, options?: threads.WorkerOptions) {
+      super(`${script}; import(${JSON.stringify(String(address))});`, { ...options, eval: true, workerData });
+    }
+  };
+
 /** The workers that each test has started so far. They end after it. `onStart` also gets their number, from 1. */
 export function watchedWorkers(onStart?: (worker: threads.Worker, number: number) => void): threads.Worker[] {
   const started: threads.Worker[] = [];

@@ -1,7 +1,7 @@
 // Workers that compute for long, and workers that die without a word.
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 
-import { CountedWorker, replaceWorker, running } from "./node-workers";
+import { CountedWorker, replaceWorker, running, workersAfter } from "./node-workers";
 import { found, heldBy, scripted, until, useOwnWorkers, useScriptedWorkers } from "./scripted-workers";
 import { bumpySphere, problemOf, readyPackage } from "./support";
 
@@ -145,16 +145,8 @@ describe("a silent worker", () => {
 
 describe("a thread", () => {
   const sphere = bumpySphere(2, 20_000);
-  /** A worker that runs this script before its own. */
-  const after = (script: string) =>
-    class extends CountedWorker {
-      constructor(address: URL, options: object) {
-        super(`${script}; import(${JSON.stringify(address.href)});`, { ...options, eval: true });
-      }
-    };
-
   it("says in the middle of a computation that it is alive", async () => {
-    replaceWorker(after("let time = 0; performance.now = () => (time += 500)"));
+    replaceWorker(workersAfter("let time = 0; performance.now = () => (time += 500)"));
     const cloud = await WorkerPointCloud.create(sphere);
     let beats = 0;
     for (const worker of running) worker.on("message", (message) => (beats += message === "beat" ? 1 : 0));
@@ -167,7 +159,7 @@ describe("a thread", () => {
     const hangs = `require("node:worker_threads").parentPort.on("message", ({ content }) => {
       while (content.kind === "visibleFrom");
     })`;
-    replaceWorker(after(hangs));
+    replaceWorker(workersAfter(hangs));
     const cloud = await WorkerPointCloud.create(sphere);
     replaceWorker(CountedWorker);
     const asked = cloud.visibleFrom(farAway);

@@ -2,6 +2,7 @@
 import type { StreamedAnswer, WorkerPointCloud as Cloud } from "hidden-point-removal/worker";
 import { afterEach, beforeAll, describe, expect, it } from "vitest";
 
+import { OriginalWorker, replaceWorker, workersAfter } from "./node-workers";
 import { bumpySphere, readyPackage } from "./support";
 
 const { HprError, PointCloud, WorkerPointCloud } = await readyPackage();
@@ -258,17 +259,26 @@ describe("an exact answer that goes on from a draft", () => {
   });
 
   it("lets other clouds of the shared worker be answered in between", async () => {
+    // The worker begins when both questions are there, however slow this thread is.
+    const gate = new Int32Array(new SharedArrayBuffer(4));
+    const waits = `const { parentPort, workerData } = require("node:worker_threads");
+      parentPort.on("message", ({ content }) => content.sliced && Atomics.wait(workerData, 0, 0))`;
+    replaceWorker(workersAfter(waits, gate));
     const [large, small] = await Promise.all([
       cloudOf(bumpySphere(1, 400_000), { shared: true }),
       cloudOf(few, { shared: true }),
     ]);
+    replaceWorker(OriginalWorker);
     await large.visibleFrom(at(0), { draft: true });
     const order: string[] = [];
     const { signal } = new AbortController();
-    await Promise.all([
+    const asked = [
       large.visibleFrom(at(0), { signal }).then(() => order.push("large")),
       small.visibleFrom(at(0)).then(() => order.push("small")),
-    ]);
+    ];
+    Atomics.store(gate, 0, 1);
+    Atomics.notify(gate, 0);
+    await Promise.all(asked);
     expect(order).toEqual(["small", "large"]);
   });
 

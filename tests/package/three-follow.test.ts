@@ -38,7 +38,7 @@ describe.each(BOTH)("%s", (_, make) => {
             filter.update(camera);
             return filter.settled && filter.answer;
           },
-          { interval: 2, timeout: 10_000 },
+          { interval: 2 },
         )
         .toBe(kind);
     };
