@@ -119,6 +119,20 @@ impl Memory {
             .make(&self.hull, flipped, flipped.len(), &|_| true)
     }
 
+    /// Adds every point to a hull that was just started.
+    #[inline(never)]
+    pub(super) fn add_all(&mut self, flipped: &Flipped, with_map: bool) -> Result<(), OutOfMemory> {
+        self.add_coarse_rounds(flipped)?;
+        if with_map {
+            self.make_map(flipped)?;
+        } else {
+            self.depth.clear();
+        }
+        let mut round = self.last_round();
+        self.add_last_round(flipped, &mut round, false, usize::MAX)?;
+        Ok(())
+    }
+
     /// The last round, before any of its points are added.
     pub(super) fn last_round(&self) -> LastRound {
         // There is an outer face while there is a hull.

@@ -45,7 +45,7 @@ pub(crate) use kept::KeptHull;
 pub(crate) use lower::lower_boundary;
 pub(crate) use memory::Memory;
 pub(crate) use outer_boundary::{
-    go_on, mark_all, mark_draft, mark_sector, mark_visible, triangulate_visible, visible_once,
+    complete, go_on, mark_draft, mark_sector, mark_visible, triangulate_visible, visible_once,
 };
 pub(crate) use outer_faces::{Exit, OuterFaces};
 pub(crate) use reaches::Reaches;

@@ -24,19 +24,6 @@ pub(crate) fn mark_visible(
     flip: &Flip,
     memory: &mut Memory,
 ) -> Result<(), OutOfMemory> {
-    // Where the flip is slow, the map would flip most points of the last round once more, which
-    // takes longer than to locate them.
-    mark(points, blocks, flip, memory, flip.is_fast())
-}
-
-#[inline(never)]
-fn mark(
-    points: &Points,
-    blocks: &[Sphere],
-    flip: &Flip,
-    memory: &mut Memory,
-    with_map: bool,
-) -> Result<(), OutOfMemory> {
     let flipped = Flipped::of(points, blocks, flip);
     if let Some(mut round) = memory.drafted(flip) {
         memory.forget();
@@ -44,28 +31,29 @@ fn mark(
         memory.clear_marks(points.len())?;
         return memory.finish(&flipped);
     }
-    if !start(&flipped, points.len(), memory)? {
-        return Ok(());
+    // Where the flip is slow, the map would flip most points of the last round once more, which
+    // takes longer than to locate them.
+    if start(&flipped, points.len(), memory)? {
+        memory.add_all(&flipped, flip.is_fast())?;
+        memory.finish(&flipped)?;
     }
-    memory.add_coarse_rounds(&flipped)?;
-    if with_map {
-        memory.make_map(&flipped)?;
-    } else {
-        memory.depth.clear();
-    }
-    let mut round = memory.last_round();
-    memory.add_last_round(&flipped, &mut round, false, usize::MAX)?;
-    memory.finish(&flipped)
+    Ok(())
 }
 
-/// The same for points that mostly are visible, where a map saves no time.
-pub(crate) fn mark_all(
+/// Makes the complete hull, and marks no points. They mostly are visible, so a map would save no time.
+pub(crate) fn complete(
     points: &Points,
     flip: &Flip,
     memory: &mut Memory,
 ) -> Result<(), OutOfMemory> {
-    memory.forget();
-    mark(points, &[], flip, memory, false)
+    let flipped = Flipped::of(points, &[], flip);
+    if start(&flipped, points.len(), memory)? {
+        memory.add_all(&flipped, false)?;
+        #[cfg(debug_assertions)]
+        memory.hull.assert_is_hull();
+        memory.state = State::Complete;
+    }
+    Ok(())
 }
 
 /// The same for one sector of the view: only its own points are marked.

@@ -67,6 +67,9 @@ impl Memory {
             heights: filled(corners, f64::INFINITY)?,
             faces: filled(corners, 0)?,
         };
+        for (side, place) in &mut seen {
+            *place = reaches.in_cells(*side, *place);
+        }
         self.fill(&mut reaches, &seen);
         Ok(Some(reaches))
     }
@@ -76,7 +79,8 @@ impl Memory {
         self.hull.surface.face(id).vertices
     }
 
-    /// Writes each outer face, on each side of the cube that it is on. `seen`: the side and the place of each vertex.
+    /// Writes each outer face, on each side of the cube that it is on. `seen`: the side and the place of each vertex, in
+    /// cells.
     #[inline(never)]
     fn fill(&self, reaches: &mut Reaches, seen: &[(usize, [f64; 2])]) {
         let hull = &self.hull;
@@ -98,7 +102,8 @@ impl Memory {
                 // A face that reaches behind a side is left out there.
                 let ahead = corners.map(|q| place_on(side, q));
                 if let [Some(a), Some(b), Some(c)] = ahead {
-                    reaches.fill(side, [a, b, c], id, &face.data);
+                    let places = [a, b, c].map(|place| reaches.in_cells(side, place));
+                    reaches.fill(side, places, id, &face.data);
                 }
             }
         }
@@ -182,19 +187,26 @@ fn grid(sides: &[Side; 6], count: usize) -> Option<([Window; 6], f64)> {
 }
 
 impl Reaches {
+    /// A place on a side of the cube in cells, from the first corner of its window.
+    #[inline]
+    fn in_cells(&self, side: usize, [x, y]: [f64; 2]) -> [f64; 2] {
+        let Window {
+            x: left, y: low, ..
+        } = self.windows[side];
+        [(x - left), (y - low)].map(|x| x * self.cells_per_unit)
+    }
+
     /// Writes a face at each corner that is certainly inside it.
     #[inline]
     fn fill(&mut self, side: usize, places: Places, id: FaceId, plane: &Plane) {
         let window = self.windows[side];
-        let scale = self.cells_per_unit;
-        let places = places.map(|[x, y]| [(x - window.x) * scale, (y - window.y) * scale]);
         let [a, b, c] = places;
+        // Whole numbers, of which the least is found without a branch, which no processor could guess.
         let range = |axis: usize, last: usize| {
-            let [a, b, c] = [a[axis], b[axis], c[axis]];
-            let low = smaller(smaller(a, b), c);
-            let high = smaller(larger(larger(a, b), c), last as f64);
+            let [a, b, c] = [a, b, c].map(|place| (place[axis] + 1.0) as u32);
             // The first whole number above and the last one below; one too many is harmless.
-            ((low + 1.0) as u32, high as u32)
+            let last_below = a.max(b).max(c).saturating_sub(1);
+            (a.min(b).min(c), last_below.min(last as u32))
         };
         let (left, right) = range(0, window.columns);
         let (bottom, top) = range(1, window.rows);

@@ -132,7 +132,7 @@ impl Panorama {
         let radius = (FLAT * farthest).min(0.5 * f64::MAX);
         let flip = Flip::new(viewpoint, Kernel::Spherical { radius }).rescaled_for(points);
         let mut memory = hull::Memory::new();
-        hull::mark_all(points, &flip, &mut memory)?;
+        hull::complete(points, &flip, &mut memory)?;
         let Some(mut faces) = memory.outer_faces(points, &flip, farthest)? else {
             return Ok(());
         };

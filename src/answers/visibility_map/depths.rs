@@ -39,19 +39,19 @@ impl VisibilityMap {
     pub(super) fn fill(&mut self, reaches: &mut Reaches, flip: &Flip) -> Result<(), OutOfMemory> {
         let cell = 1.0 / reaches.cells_per_unit;
         let mut lengths = core::mem::take(&mut reaches.heights);
-        let mut least = filled(lengths.len(), 0.0)?;
+        let mut least = filled(lengths.len(), 0)?;
         let mut distances = filled(lengths.len(), NOWHERE)?;
         for window in &reaches.windows {
             each_corner(window, cell, &mut |place, _, squared| {
                 lengths[place] = square_root(squared) / lengths[place] * (1.0 - ROUNDING);
-                least[place] = lengths[place];
+                least[place] = lengths[place].to_bits();
             });
         }
         for window in &reaches.windows {
             lower(window, cell, &lengths, &mut least);
             each_corner(window, cell, &mut |place, _, squared| {
-                if least[place] > 0.0 {
-                    let reach = least[place] * (1.0 - bulge(cell, squared));
+                if least[place] > 0 {
+                    let reach = f64::from_bits(least[place]) * (1.0 - bulge(cell, squared));
                     distances[place] = stored(flip.distance_at(reach));
                 }
             });
@@ -93,39 +93,39 @@ fn bulge(cell: f64, squared: f64) -> f64 {
     0.125 * cell * cell * smaller(2.0, sum * grown)
 }
 
-/// For all corners of a window, lowers the reaches by what the cells around lose.
-fn lower(window: &Window, cell: f64, lengths: &[f64], least: &mut [f64]) {
+/// For all corners of a window, lowers the reaches by what the cells around lose. Numbers that are not negative are in
+/// the order of their bits: without a branch, which no processor could guess.
+fn lower(window: &Window, cell: f64, lengths: &[f64], least: &mut [u64]) {
     let across = window.columns + 1;
     for row in 0..window.rows {
         let both = window.first + row * across..window.first + (row + 2) * across;
         let (low, high) = lengths[both.clone()].split_at(across);
         let (least_low, least_high) = least[both].split_at_mut(across);
+        let [mut a, mut c] = [low[0], high[0]];
+        let mut before = ends(a, c);
         for column in 0..window.columns {
-            let [a, b] = [low[column], low[column + 1]];
-            let [c, d] = [high[column], high[column + 1]];
-            let m = smaller(smaller(a, b), smaller(c, d));
+            let [b, d] = [low[column + 1], high[column + 1]];
+            let beyond = ends(b, d);
+            let m = f64::from_bits(before[0].min(beyond[0]));
             // A cell with an unknown corner hides nothing.
-            if m <= 0.0 {
-                continue;
+            if m > 0.0 {
+                let range = f64::from_bits(before[1].max(beyond[1])) - m;
+                let lost = range * (0.25 * range / m + 0.708 * cell) * (1.0 + 1e-12);
+                let is_much = lost >= MOST_LOST * m;
+                let left = |length: f64| if is_much { m } else { length - lost }.to_bits();
+                least_low[column] = least_low[column].min(left(a));
+                least_high[column] = least_high[column].min(left(c));
+                least_low[column + 1] = least_low[column + 1].min(left(b));
+                least_high[column + 1] = least_high[column + 1].min(left(d));
             }
-            let range = larger(larger(a, b), larger(c, d)) - m;
-            let lost = range * (0.25 * range / m + 0.708 * cell) * (1.0 + 1e-12);
-            let left = |length: f64| {
-                if lost < MOST_LOST * m {
-                    length - lost
-                } else {
-                    m
-                }
-            };
-            for (least, length) in [(&mut least_low[column], a), (&mut least_high[column], c)] {
-                *least = smaller(*least, left(length));
-            }
-            for (least, length) in [
-                (&mut least_low[column + 1], b),
-                (&mut least_high[column + 1], d),
-            ] {
-                *least = smaller(*least, left(length));
-            }
+            (a, c, before) = (b, d, beyond);
         }
     }
+}
+
+/// The bits of the smaller and the larger one.
+#[inline]
+fn ends(a: f64, b: f64) -> [u64; 2] {
+    let [a, b] = [a.to_bits(), b.to_bits()];
+    [a.min(b), a.max(b)]
 }

@@ -144,7 +144,7 @@ impl PointCloud {
             return Ok(made);
         }
         let flip = flip.rescaled_for(&chosen);
-        hull::mark_all(&chosen, &flip, hull)?;
+        hull::complete(&chosen, &flip, hull)?;
         let corners = map.corners.min(CORNERS * chosen.len().max(FEW));
         if is_look {
             let look = Look {
