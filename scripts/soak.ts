@@ -1,6 +1,6 @@
-// npm run soak [-- --views N --points N]: what takes too long for npm test. The page's memory in its long form
-// (tests/browser/soak.test.ts), many views in workers, all maps of a turn, and one large cloud (tests/soak). Ends with status 1 if an
-// answer was wrong or memory grew.
+// npm run soak [-- --views N --points N]: what takes too long for npm test. The page's memory and its maps
+// (tests/browser: soak, orbit), many views in workers, all maps of a turn, and one large cloud (tests/soak). Ends with
+// status 1 if an answer was wrong or memory grew.
 import { parseArgs } from "node:util";
 
 import { build } from "./build/build.js";
@@ -22,7 +22,10 @@ await command(async () => {
   await setUpForBuild();
   await build();
   const env = { HPR_CHROMIUM: await setUpBrowser(), HPR_SOAK: "1" };
-  const page = await run("vitest", ["run", "tests/browser/soak.test.ts"], { show: "results", env });
+  const page = await run("vitest", ["run", "tests/browser/soak.test.ts", "tests/browser/orbit.test.ts"], {
+    show: "results",
+    env,
+  });
   const { large, maps, views } = await load<Soak>("tests/soak/soak.ts");
   const right = [
     page.ok,
