@@ -123,6 +123,20 @@ test("the first view is answered by a draft, one hull and looks; a move by maps,
   expect(await scene.kinds(250)).toEqual(["looks"]);
 });
 
+test("frames that take longer than a rest are no rest", async () => {
+  const scene = await Scene.of(100_000);
+  await scene.kinds(250);
+  scene.asked.length = 0;
+  for (let x = 1; x < 4; x++) {
+    await scene.move(x);
+    scene.asked.at(-1)!.answer();
+    await scene.flush();
+    await vi.advanceTimersByTimeAsync(300);
+  }
+  expect(scene.asked.splice(0).map(({ kind }) => kind)).toEqual(["map", "map", "map"]);
+  expect(await scene.kinds(1)).toEqual(["looks"]);
+});
+
 test("a small cloud has no drafts", async () => {
   const small = await Scene.of(1000);
   expect([small.asked.splice(0)[0]!.kind, ...(await small.kinds(250))]).toEqual(["operator", "looks"]);

@@ -50,8 +50,9 @@ export interface Mapped {
 const DRAFTS_FROM = 50_000;
 /** After a draft, one hull is asked if the viewpoint has not moved for this number of milliseconds. */
 const PAUSE = 40;
-/** A viewpoint that has not moved for this number of milliseconds is at rest. */
+/** A viewpoint that has not moved for this number of milliseconds, and in this number of frames, is at rest. */
 const REST = 250;
+const STILL = 2;
 /** A lost worker is replaced once. After that, the user decides. */
 const ONCE = { delays: [0], pause: Infinity, longPause: Infinity };
 
@@ -98,6 +99,8 @@ export class Inquiry {
   #freeSince = 0;
   #hasMaps = false;
   #upToDate = false;
+  /** In how many frames in turn the viewpoint has not moved. A frame of a large cloud may take longer than a rest. */
+  #still = STILL;
 
   /** `another` makes a lost cloud again. */
   constructor(cloud: WorkerCloud, another: () => Promise<WorkerCloud>, size: number) {
@@ -187,12 +190,14 @@ export class Inquiry {
 
   #wantView(question: ViewQuestion): void {
     const before = this.#wanted;
+    this.#still++;
     if (before && isSameView(question, before, this.#size)) return;
     this.#wanted = question;
     const stages = this.#stages;
     if (before && isSamePlace(question.viewpoint, before.viewpoint, this.#size)) {
       this.#refinement.begin(stages, this.#firstOf(stages));
     } else {
+      this.#still = 0;
       this.#refinement.moved(stages);
     }
   }
@@ -209,7 +214,7 @@ export class Inquiry {
 
   #viewRound(): Round | undefined {
     const { due } = this.#refinement;
-    if (!due) return undefined;
+    if (!due || (due.rest > 0 && this.#still < STILL)) return undefined;
     if (due.kind === "map") return this.#mapRound();
     return this.#asking(async (stage) => {
       const view = await this.#ask(stage);
