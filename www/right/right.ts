@@ -7,8 +7,9 @@ import { judge, judgeByStations, type Judged, judges, type StationVerdict, type 
 const number = new Intl.NumberFormat("en-US");
 const percent = (share: number) => `${(100 * share).toFixed(2)} %`;
 
-/** The pixels of a picture for each of its CSS pixels, and its width. */
+/** The width of a picture in pixels, and what is left free at each of its edges. */
 const WIDTH = 640;
+const EDGE = 8;
 
 /** Opens the judgment about the viewer's present cloud and viewpoint. Resolves when it is there, or when it is closed. */
 export async function showRight(viewer: Viewer): Promise<void> {
@@ -131,18 +132,28 @@ function swatch(color: string): HTMLElement {
   return made;
 }
 
-/** The points that a method shows, and its errors over them. */
+/** The points that a method shows, and its errors over them, in the part of the picture that has points. */
 function drawn({ projected, truth }: Judged, { method, shown }: Verdict): HTMLCanvasElement {
-  const { x, y, depth, picture } = projected;
-  const scale = WIDTH / picture.width;
-  const height = Math.round(scale * picture.height);
+  const { x, y, depth } = projected;
+  const ends = (places: Float64Array) => {
+    const inside = places.filter((_, i) => depth[i]! > 0);
+    return [
+      inside.reduce((a, b) => Math.min(a, b), Infinity) - EDGE,
+      inside.reduce((a, b) => Math.max(a, b), 0) + EDGE,
+    ];
+  };
+  const [[left, right], [top, bottom]] = [ends(x), ends(y)] as [[number, number], [number, number]];
+  // A tower is no wider than it would be in a photo.
+  const width = Math.max(right - left, (bottom - top) * 1.4);
+  const scale = WIDTH / width;
   const canvas = make("canvas", {
     width: String(WIDTH),
-    height: String(height),
+    height: String(Math.round(scale * (bottom - top))),
     role: "img",
     "aria-label": `Errors: ${method}`,
   });
   const context = canvas.getContext("2d")!;
+  context.translate(WIDTH / 2 - (scale * (left + right)) / 2, -scale * top);
   const theme = THEMES[document.documentElement.dataset["theme"] === "light" ? "light" : "dark"];
   // Errors are drawn last, so that nothing covers them.
   const draw = (color: string, side: number, isDrawn: (i: number) => boolean) => {
