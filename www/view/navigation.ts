@@ -71,17 +71,20 @@ export class Navigation {
 
   /**
    * Flies back so far that its place and a ball around the target are both in the picture, also while it turns around the
-   * middle between them. `shape`: of the picture. `then` is called there, unless the user moves first.
+   * middle between them. In a narrow picture the ball would be small: there it turns around the ball. `shape`: of the picture.
+   * `then` is called there, unless the user moves first.
    */
   goBack(extent: number, { aspect, free }: { aspect: number; free: number }, then: () => void): void {
     const back = this.#camera.position.clone().sub(this.target);
     // A place among the points is not left for the outside.
     const radius = Math.min(extent, back.length());
-    const half = (back.length() + radius) / 2;
+    const alone = (1.6 * radius) / Math.min(aspect, free);
+    const both = Math.max((back.length() + radius) / 2 / aspect, radius / free);
+    const half = both < alone ? (back.length() + radius) / 2 : radius;
     const middle = this.target.clone().addScaledVector(back.normalize(), half - radius);
     const tangent = Math.tan((this.#camera.fov * Math.PI) / 360);
     // What turns comes nearer, and gets larger.
-    const distance = Math.max(half / aspect, radius / free) / tangent + half / 2;
+    const distance = Math.min(both, alone) / tangent + half / 2;
     this.flyTo({ at: middle.clone().addScaledVector(back, distance), target: middle }, FLIGHT, then);
   }
 
