@@ -1,7 +1,7 @@
 // The layer for deck.gl: its filter values, and the points that are drawn and picked.
 import type { Page } from "playwright-core";
 import { afterAll, beforeAll, beforeEach, expect, it } from "vitest";
-import { browser } from "./browser.js";
+import { newPage } from "./browser.js";
 import { builtPage } from "./built.js";
 import type { DeckPage } from "./deck/page.js";
 import { serveModules } from "./modules.js";
@@ -20,13 +20,13 @@ afterAll(() => {
 });
 
 beforeEach(async () => {
-  page = await browser.newPage({ viewport: { width: 300, height: 300 } });
+  page = await newPage({ viewport: { width: 300, height: 300 } });
   await page.goto(site.address + path);
   await reached(({ answers }) => answers.length > 0);
 });
 
 async function reached(test: (page: DeckPage) => boolean): Promise<void> {
-  await page.waitForFunction(`(${test.toString()})(globalThis.page)`, undefined, { timeout: 60_000 });
+  await page.waitForFunction(`(${test.toString()})(globalThis.page)`);
 }
 
 function inPage<T>(look: (page: DeckPage) => T | Promise<T>): Promise<T> {
@@ -118,6 +118,8 @@ it("draws and picks by a map while the camera moves", async () => {
     // Nothing is left out any more when the layer draws all points.
     page.set({ visibility: { exponent: 3, stale: "all" } });
     await frame();
+    // No answer comes before the picture is read.
+    page.silence();
     turn(degrees + 1);
     await frame();
     return {

@@ -94,7 +94,8 @@ test("an element that is removed stops, one that returns starts again, one that 
     document.body.append(a, document.createElement("section"));
     document.querySelector("section")!.append(a);
   });
-  expect(await kept(page)).toEqual({ workers: 1, pictures: 2 });
+  // The worker that has read the files ends a moment later.
+  await expect.poll(() => kept(page)).toEqual({ workers: 1, pictures: 2 });
   expect(await heardBy(page, "a", "load")).toHaveLength(1);
 
   for (let round = 1; round <= 2; round++) {

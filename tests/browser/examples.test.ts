@@ -2,10 +2,10 @@
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { build } from "vite";
-import { afterAll, beforeAll, expect, it, vi } from "vitest";
+import { afterAll, beforeAll, expect, it } from "vitest";
 
 import { promised, root } from "../package/snippets.js";
-import { browser } from "./browser.js";
+import { newPage } from "./browser.js";
 import { serveModules } from "./modules.js";
 
 const folder = join(root, "examples");
@@ -42,19 +42,14 @@ it.each([
   ["react.jsx", OUT],
   ["deck.html", OUT],
 ])("%s prints the lines in its comments", async (name, served) => {
-  const page = await browser.newPage();
+  const page = await newPage();
   const [lines, failures]: string[][] = [[], []];
   page.on("console", (message) => message.type() === "log" && lines!.push(message.text()));
   page.on("pageerror", (error) => failures!.push(String(error)));
   await page.goto(`${site.address}${served}/${name.replace(".jsx", ".html")}`);
   const expected = promised(readFileSync(join(folder, name), "utf8"));
   expect(expected.length).toBeGreaterThan(0);
-  await vi.waitFor(
-    () => {
-      expect(lines).toEqual(expected);
-    },
-    { timeout: 60_000 },
-  );
+  await expect.poll(() => lines).toEqual(expected);
   expect(failures).toEqual([]);
   await page.close();
 });

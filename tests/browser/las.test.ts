@@ -1,7 +1,6 @@
 // The visible points of a LAS file are written as LAS with all that the file said.
 import { spawnSync } from "node:child_process";
-import { existsSync, readFileSync, writeFileSync } from "node:fs";
-import { tmpdir } from "node:os";
+import { existsSync, readFileSync } from "node:fs";
 import { join } from "node:path";
 import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
@@ -15,11 +14,12 @@ const VIEW = `&up=y&view=${[X, Y, Z + 9].join()}&target=${MIDDLE.join()}`;
 const PYTHON = join(root, "target", "python", "bin", "python");
 const hasLaspy = existsSync(PYTHON) && spawnSync(PYTHON, ["-c", "import laspy"]).status === 0;
 
-async function savedLas(page: Page): Promise<Buffer> {
+/** The path of the file that the page saves. */
+async function savedLas(page: Page): Promise<string> {
   if ((await tool(page, "Export").getAttribute("aria-pressed")) !== "true") await tool(page, "Export").click();
   const coming = page.waitForEvent("download");
   await page.locator("#export-las").click();
-  return readFileSync(await (await coming).path());
+  return (await coming).path();
 }
 
 const total = async (page: Page, count: number) => {
@@ -41,7 +41,7 @@ test.for([
     served.set("clouds/again.las", source);
     const page = await openReady(`?src=clouds/again.las${VIEW}`);
     const seen = await visible(page);
-    const file = await savedLas(page);
+    const file = readFileSync(await savedLas(page));
     const rows = (bytes: Buffer) => {
       const [start, length] = [bytes.readUInt32LE(96), bytes.readUInt16LE(105)];
       return Array.from({ length: (bytes.length - start) / length }, (_, i) =>
@@ -69,8 +69,7 @@ test.skipIf(!hasLaspy)("laspy reads the same points and columns from the LAS fil
     served.set("clouds/again.las", las(positions, options ?? {}));
     const page = options ? await openReady(`?src=clouds/again.las${VIEW}`) : await openBall();
     const seen = await visible(page);
-    const path = join(tmpdir(), "hpr-written.las");
-    writeFileSync(path, await savedLas(page));
+    const path = await savedLas(page);
     const names = options ? ["intensity", "classification", "return_number", "red", "deviation"] : [];
     const script = `import laspy,sys,json
 l=laspy.read(sys.argv[1])

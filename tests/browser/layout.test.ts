@@ -59,6 +59,9 @@ async function flaws(page: Page): Promise<string[]> {
   });
 }
 
+/** The picture takes its place in the next frame. */
+const expectNoFlaws = (page: Page, message = "") => expect.poll(() => flaws(page), { message }).toEqual([]);
+
 /** Unfolds every section of the panel, or folds all. */
 const foldAll = (page: Page, isOpen: boolean) =>
   page.evaluate((open) => {
@@ -72,7 +75,7 @@ test("folded and unfolded, at 1280, 1000 and 761 px nothing overlaps and every c
     await page.setViewportSize({ width, height: 800 });
     for (const isOpen of [false, true]) {
       await foldAll(page, isOpen);
-      await expect.poll(() => flaws(page), { message: `${width} px` }).toEqual([]);
+      await expectNoFlaws(page, `${width} px`);
     }
     // The slider and its button are in one row.
     const [slider, automatic] = await Promise.all(
@@ -84,14 +87,14 @@ test("folded and unfolded, at 1280, 1000 and 761 px nothing overlaps and every c
 
 test("on a phone the panel is a bar that opens upwards, nothing overlaps, and one finger orbits", async () => {
   const page = await openReady("?sample=dragon_res4", PHONE);
-  expect(await flaws(page)).toEqual([]);
+  await expectNoFlaws(page);
   const view = page.locator("#view");
   expect((await view.boundingBox())!.height).toBeGreaterThan(500);
   expect(await page.getByLabel("Sample", { exact: true }).isVisible()).toBe(false);
 
   const toggle = page.getByRole("button", { name: "More controls" });
   await toggle.tap();
-  expect(await flaws(page)).toEqual([]);
+  await expectNoFlaws(page);
   expect(await page.getByLabel("Sample", { exact: true }).isVisible()).toBe(true);
   expect((await view.boundingBox())!.height).toBeGreaterThan(150);
   await page.getByRole("button", { name: "Fewer controls" }).tap();
@@ -113,7 +116,7 @@ test("a message fits a phone", async () => {
   serveSmallDragon();
   const page = await openReady("?sample=unicorn", PHONE);
   expect(await page.locator("#message").isVisible()).toBe(true);
-  expect(await flaws(page)).toEqual([]);
+  await expectNoFlaws(page);
 });
 
 test.for([
@@ -139,7 +142,7 @@ test.for([
   await page.locator("#tools").waitFor();
   for (const open of [false, true]) {
     await foldAll(page, open);
-    expect(await flaws(page)).toEqual([]);
+    await expectNoFlaws(page);
   }
   // The cloud keeps enough space, and its tools stay within it.
   await page.evaluate(() => {
@@ -158,7 +161,7 @@ test.for([
 test("every control is at least 44 pixels large for fingers, and covers no other", async () => {
   const page = await openReady("?sample=bunny&color=height", PHONE);
   await foldAll(page, true);
-  expect(await flaws(page)).toEqual([]);
+  await expectNoFlaws(page);
   const small = await page.evaluate(() => {
     const all = [
       ...document.querySelectorAll<HTMLElement>(

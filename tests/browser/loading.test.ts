@@ -3,7 +3,7 @@ import { join } from "node:path";
 import { gzipSync } from "node:zlib";
 import { expect, test } from "vitest";
 import { root } from "../root.js";
-import { browser } from "./browser.js";
+import { newContext } from "./browser.js";
 import { openPage, PHONE, reached, site, upToDate } from "./support.js";
 
 /** A sample that is downloaded, and small. */
@@ -16,7 +16,7 @@ function onTheWire(name: string): number {
 }
 
 test("the download for the first cloud, with three.js, wasm and workers, is at most 320 kB", async () => {
-  const context = await browser.newContext({ serviceWorkers: "block" });
+  const context = await newContext({ serviceWorkers: "block" });
   const page = await context.newPage();
   // The time of the first answer. The first cloud does not wait for later requests.
   await page.addInitScript(() => {

@@ -1,6 +1,6 @@
 import type { Page } from "playwright-core";
 import { afterAll, beforeAll, expect } from "vitest";
-import { browser } from "./browser.js";
+import { newPage } from "./browser.js";
 import { serveModules } from "./modules.js";
 
 /** A page with these modules for all tests of a file. None may log an error. */
@@ -13,7 +13,7 @@ export function modulesPage(imports: Record<string, string>): { page: Page; said
   beforeAll(async () => {
     const site = await serveModules(imports);
     close = site.close;
-    shared.page = await browser.newPage({ viewport: { width: 400, height: 400 } });
+    shared.page = await newPage({ viewport: { width: 400, height: 400 } });
     shared.page.on("pageerror", (error) => errors.push(String(error)));
     shared.page.on("console", (message) => {
       if (message.type() === "error") errors.push(message.text());

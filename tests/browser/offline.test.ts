@@ -3,7 +3,7 @@ import { join } from "node:path";
 import type { BrowserContext, Page } from "playwright-core";
 import { afterEach, beforeEach, expect, test } from "vitest";
 import { root } from "../root.js";
-import { browser } from "./browser.js";
+import { newContext } from "./browser.js";
 import { asciiPly, ball } from "./clouds.js";
 import { servePage, type Site } from "./site.js";
 import { answered, reached, status, upToDate } from "./support.js";
@@ -16,7 +16,7 @@ let context: BrowserContext;
 beforeEach(async () => {
   extra = new Map();
   site = await servePage(extra);
-  context = await browser.newContext({ viewport: { width: 1000, height: 700 }, deviceScaleFactor: 0.5 });
+  context = await newContext({ viewport: { width: 1000, height: 700 }, deviceScaleFactor: 0.5 });
 });
 
 afterEach(async () => {
@@ -139,19 +139,18 @@ test("a newer build is used at the next load, and is never mixed with the old bu
   );
   expect(Object.keys(await stored(old)).sort()).toEqual([version, "newer", "samples"].sort());
 
-  // A closed tab ends a moment later. A tab that opens before that belongs to the old worker, and keeps it alive. One that
-  // opens while the workers change has to wait.
-  let next = old;
-  const takenOver = async () =>
-    Object.keys(await stored(next))
-      .sort()
-      .join() === "newer,samples";
-  for (let visits = 0; visits < 10 && !(await takenOver()); visits++) {
-    await next.close();
-    await new Promise((resolve) => setTimeout(resolve, 500));
-    next = await visit();
-  }
-  expect(await takenOver()).toBe(true);
+  // A closed tab ends a moment later. A tab that opens before that belongs to the old worker, and keeps it alive.
+  const devtools = await context.newCDPSession(await context.newPage());
+  const takenOver = new Promise<void>((resolve) => {
+    devtools.on("ServiceWorker.workerVersionUpdated", ({ versions }) => {
+      if (versions.some(({ status }) => status === "redundant")) resolve();
+    });
+  });
+  await devtools.send("ServiceWorker.enable");
+  await old.close();
+  await takenOver;
+  const next = await visit();
+  await expect.poll(async () => Object.keys(await stored(next)).sort()).toEqual(["newer", "samples"]);
   site.vanish();
   await next.reload();
   await reached(next, "ready");

@@ -4,7 +4,7 @@ import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import type { Page } from "playwright-core";
 import { afterAll, beforeAll, expect, it } from "vitest";
-import { browser } from "./browser.js";
+import { newPage } from "./browser.js";
 
 let page: Page;
 const errors: string[] = [];
@@ -39,7 +39,7 @@ declare const frame: () => Promise<void>;
 const SCRIPT = readFileSync(join(import.meta.dirname, "../../dist/hidden-point-removal.global.js"), "utf8");
 
 beforeAll(async () => {
-  page = await browser.newPage({ viewport: { width: 300, height: 300 } });
+  page = await newPage({ viewport: { width: 300, height: 300 } });
   page.on("pageerror", (error) => errors.push(String(error)));
   await page.setContent(`<canvas width="300" height="300"></canvas><script>${SCRIPT}</script>`);
   await page.addScriptTag({ path: join(import.meta.dirname, "potree/viewer.js") });

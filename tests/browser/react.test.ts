@@ -1,7 +1,7 @@
 // The hook and the component for React, in a canvas that draws on demand.
 import type { Page } from "playwright-core";
 import { afterAll, beforeAll, beforeEach, expect, it } from "vitest";
-import { browser } from "./browser.js";
+import { newPage } from "./browser.js";
 import { builtPage } from "./built.js";
 import { serveModules } from "./modules.js";
 import type { App } from "./react/page.js";
@@ -22,7 +22,7 @@ afterAll(() => {
 
 beforeEach(async () => {
   failures = [];
-  page = await browser.newPage();
+  page = await newPage();
   page.on("pageerror", (error) => failures.push(String(error)));
   await page.goto(site.address + path);
   await reached(({ points, changes }) => points !== null && changes.length > 0);
@@ -32,7 +32,7 @@ type Test = (app: App) => boolean;
 
 /** Waits until `test` is true in the page. */
 async function reached(test: Test): Promise<void> {
-  await page.waitForFunction(`(${test.toString()})(globalThis.app)`, undefined, { timeout: 60_000 });
+  await page.waitForFunction(`(${test.toString()})(globalThis.app)`);
 }
 
 function inPage<T>(look: (app: App) => T): Promise<T> {

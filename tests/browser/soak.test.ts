@@ -5,7 +5,7 @@
 import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
 import { countHoldings, type Holdings, holdingsOf, type MemoryUse, memoryOf } from "./holdings.js";
-import { openReady, status, upToDate, unfold } from "./support.js";
+import { openReady, settled, status, upToDate, unfold } from "./support.js";
 
 const IS_LONG = process.env["HPR_SOAK"] === "1";
 /** How often everything is done before the memory is measured for the first time, and how often afterwards. */
@@ -16,7 +16,7 @@ const NOISE = { heap: 600_000, buffers: 60_000 };
 
 /** The page's memory and objects after its timers have run. */
 async function held(page: Page): Promise<MemoryUse & Holdings> {
-  await upToDate(page);
+  await settled(page);
   // The page's own timers are shorter.
   await page.evaluate(() => new Promise((resolve) => setTimeout(resolve, 1050)));
   return { ...(await memoryOf(page)), ...(await holdingsOf(page)) };

@@ -16,6 +16,7 @@ import {
   reached,
   said,
   served,
+  settled,
   status,
   upToDate,
 } from "./support.js";
@@ -59,7 +60,7 @@ test("in the page: maps while the camera moves, then looks; a map keeps the numb
     return list;
   });
   await drag(page, 150, 30);
-  const now = await upToDate(page);
+  const now = await settled(page);
   const answers = await seen.jsonValue();
   expect(answers.at(-1)!.answer).toBe("looks");
   // On a busy machine the camera may rest between two moves of the drag, and is answered there.
@@ -135,7 +136,7 @@ test("a click that comes before the final answer waits for it, unless the camera
   await hold(page);
   await pressTogether(page, "ArrowLeft", "Enter", "ArrowLeft");
   await release(page);
-  await upToDate(page);
+  await settled(page);
   expect(await picked()).toBeNull();
 });
 
@@ -143,8 +144,7 @@ test("a click between a move and the next frame waits for the answer as well", a
   const page = await openReady("?sample=dragon_res3");
   await page.locator("#tool-pick").click();
   await pressTogether(page, "ArrowLeft", "Enter");
-  await upToDate(page);
-  expect(await page.locator("#pick-result").getAttribute("data-index")).toMatch(/^\d+$/);
+  await expect.poll(() => page.locator("#pick-result").getAttribute("data-index")).toMatch(/^\d+$/);
 });
 
 test("a click between a move and the next frame finds the point that this frame shows there", async () => {
@@ -184,7 +184,7 @@ test("a file that cannot be opened leaves the cloud and the camera as they were,
   const page = await openReady("?sample=bunny");
   await page.locator("#view").press("ArrowLeft");
   await page.locator("#view").blur();
-  const before = await upToDate(page);
+  const before = await settled(page);
   const shown = await picture(page);
   // The last row is cut.
   const text = Buffer.from(asciiPly(ball(40_000))).toString("latin1");

@@ -14,13 +14,10 @@ const says = (page: Page) => page.locator("#story p").textContent();
 async function told(page: Page, title: keyof typeof TOLD, step: number): Promise<string> {
   const [begin] = TOLD[title].steps[step]!.says.split("{");
   await expect
-    .poll(
-      async () => {
-        const sentence = (await says(page).catch(() => null)) ?? "";
-        return sentence.startsWith(begin!) && !sentence.includes("…");
-      },
-      { timeout: 120_000 },
-    )
+    .poll(async () => {
+      const sentence = (await says(page).catch(() => null)) ?? "";
+      return sentence.startsWith(begin!) && !sentence.includes("…");
+    })
     .toBe(true);
   await upToDate(page);
   return (await says(page))!;

@@ -104,7 +104,6 @@ export async function hears(
       (globalThis as unknown as { heard: Heard[] }).heard.filter((told) => told.id === who && told.type === what)
         .length > count,
     [id, type, before] as const,
-    { timeout: 60_000 },
   );
   return (await heardBy(page, id, type))[before]!;
 }

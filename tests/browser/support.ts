@@ -6,7 +6,7 @@ import { init, PointCloud, type VisibilityOptions } from "hidden-point-removal";
 import type { BrowserContextOptions, Page } from "playwright-core";
 import { expect } from "vitest";
 import { root } from "../root.js";
-import { browser } from "./browser.js";
+import { newContext } from "./browser.js";
 import { servePage } from "./site.js";
 
 /** A phone, but with a quarter of its pixels: software draws them. */
@@ -25,9 +25,9 @@ export function serveSmallDragon(): void {
   served.set("samples/dragon_res2.bin", readFileSync(join(root, "www/dist/samples/dragon_res4.bin")));
 }
 
-/** Waits until the address has everything: it is written 300 ms after the last change. */
+/** Waits until the address has everything: it is written 300 ms after the last change, which a frame may notice late. */
 export async function addressWritten(page: Page): Promise<URLSearchParams> {
-  await upToDate(page);
+  await settled(page);
   // A timer of the page. It runs after all that were set before it and are shorter.
   await page.evaluate(() => new Promise((resolve) => setTimeout(resolve, 350)));
   return new URL(page.url()).searchParams;
@@ -57,7 +57,7 @@ export async function openPage(
 ): Promise<Page> {
   // Each page is a first visit. offline.test.ts tests what stays between visits.
   // Software drawing takes nearly all the time. A quarter of the pixels, in the same layout, takes half of it.
-  const context = await browser.newContext({
+  const context = await newContext({
     viewport: { width: 1000, height: 700 },
     deviceScaleFactor: 0.5,
     serviceWorkers: "block",
@@ -65,8 +65,6 @@ export async function openPage(
     reducedMotion: "reduce",
     ...options,
   });
-  // Software draws on a busy machine, so this limit only ends what hangs.
-  context.setDefaultTimeout(120_000);
   const page = await context.newPage();
   pages.push(page);
   page.on("console", (message) => {
@@ -135,7 +133,7 @@ export async function status(page: Page): Promise<Status> {
 
 /** The status and the sentence in a state. An error's sentence is there at once. */
 export async function reached(page: Page, state: "ready" | "error"): Promise<Status & { sentence: string }> {
-  await page.locator(`#status[data-state="${state}"]`).waitFor({ state: "attached", timeout: 120_000 });
+  await page.locator(`#status[data-state="${state}"]`).waitFor({ state: "attached" });
   return { ...(await status(page)), sentence: (await page.locator("#status").textContent())! };
 }
 
@@ -150,14 +148,10 @@ export async function said(page: Page): Promise<string> {
 
 /** Waits for an answer after `before`. While a cloud is being loaded, the one before it may be answered once more. */
 export async function answered(page: Page, before: Status): Promise<Status> {
-  await page.waitForFunction(
-    (refilters) => {
-      const { dataset } = document.getElementById("status")!;
-      return dataset["state"] !== "loading" && Number(dataset["refilters"]) > refilters;
-    },
-    before.refilters,
-    { timeout: 60_000 },
-  );
+  await page.waitForFunction((refilters) => {
+    const { dataset } = document.getElementById("status")!;
+    return dataset["state"] !== "loading" && Number(dataset["refilters"]) > refilters;
+  }, before.refilters);
   return status(page);
 }
 
@@ -182,9 +176,12 @@ export async function settled(page: Page): Promise<Status> {
   return status(page);
 }
 
-/** The status after the picture shows the present settings and camera. */
+/**
+ * The status after the picture shows the present settings and camera. The next frame notices that a camera has moved: after
+ * a move, wait with `settled`.
+ */
 export async function upToDate(page: Page): Promise<Status> {
-  await page.locator('#status[data-busy="0"]').waitFor({ state: "attached", timeout: 120_000 });
+  await page.locator('#status[data-busy="0"]').waitFor({ state: "attached" });
   return status(page);
 }
 

@@ -183,7 +183,7 @@ test("a finger picks and labels; a long label stays in the picture, and its Remo
   const nearest = Array.from({ length: 600 }, (_, i) => i).reduce((best, i) => (at(i)[2] > at(best)[2] ? i : best), 0);
   const { x, y } = await place(page, nearest);
   await page.touchscreen.tap(x, y);
-  expect(await page.locator("#pick-result").getAttribute("data-index")).toBe(String(nearest));
+  await expect.poll(() => page.locator("#pick-result").getAttribute("data-index")).toBe(String(nearest));
 
   await tool(page, "Label").tap();
   await page.touchscreen.tap(x, y);

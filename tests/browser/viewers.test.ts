@@ -3,7 +3,7 @@ import type { Page } from "playwright-core";
 import type { BufferAttribute, Object3D, Points } from "three";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 
-import { browser } from "./browser.js";
+import { newPage } from "./browser.js";
 import { serveModules } from "./modules.js";
 import { cloud, type Files, potreeFiles, tilesFiles } from "./tiles.js";
 
@@ -35,7 +35,7 @@ afterAll(() => {
 });
 
 async function pageWith(files: Files): Promise<Page> {
-  const page = await browser.newPage({ viewport: { width: 400, height: 400 } });
+  const page = await newPage({ viewport: { width: 400, height: 400 } });
   await page.route("**/tiles/*", (route) => {
     const body = files.get(new URL(route.request().url()).pathname.split("/").at(-1)!)!;
     const [, from, to] = /^bytes=(\d+)-(\d+)$/.exec(route.request().headers()["range"] ?? "") ?? [];

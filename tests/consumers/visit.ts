@@ -9,6 +9,8 @@ export async function visitWith(
   prepare?: (page: Page) => Promise<unknown>,
 ): Promise<Answered> {
   const page = await browser.newPage();
+  // Machines differ in speed: this only ends what hangs.
+  page.setDefaultTimeout(120_000);
   const complaints: string[] = [];
   page.on("console", (message) => complaints.push(message.text()));
   page.on("pageerror", (error) => complaints.push(String(error)));
@@ -16,7 +18,7 @@ export async function visitWith(
     await prepare?.(page);
     await page.goto(address);
     const output = page.locator("output[data-done]");
-    await output.waitFor({ state: "attached", timeout: 30_000 }).catch(() => {
+    await output.waitFor({ state: "attached" }).catch(() => {
       throw new Error(`no answer: ${complaints.join("; ")}`);
     });
     return JSON.parse((await output.textContent())!) as Answered;

@@ -24,6 +24,8 @@ export interface DeckPage {
   killWorker: () => void;
   /** Ends this many workers, each as soon as it is asked about a view. */
   killWorkerWhenAsked: (times?: number) => void;
+  /** Workers hear nothing from now on. */
+  silence: () => void;
   pick: (x: number, y: number) => Promise<number | undefined>;
   /** The points in the picture, from the pixels that deck.gl draws to pick from. */
   drawn: () => Promise<number[]>;
@@ -33,6 +35,7 @@ export interface DeckPage {
 
 const workers: Worker[] = [];
 let toKill = 0;
+let isSilent = false;
 const OwnWorker = Worker;
 globalThis.Worker = class extends OwnWorker {
   constructor(...args: ConstructorParameters<typeof Worker>) {
@@ -41,7 +44,7 @@ globalThis.Worker = class extends OwnWorker {
   }
 
   override postMessage(message: unknown, ...transfer: never[]): void {
-    super.postMessage(message, ...transfer);
+    if (!isSilent) super.postMessage(message, ...transfer);
     const { kind } = (message as { content: { kind: string } }).content;
     if (kind === "visibleFrom" && toKill > 0) {
       toKill -= 1;
@@ -105,6 +108,9 @@ const page: DeckPage = {
   },
   killWorkerWhenAsked: (times = 1) => {
     toKill = times;
+  },
+  silence: () => {
+    isSilent = true;
   },
   pick: async (x, y) => (await deck.pickObjectAsync({ x, y, radius: 3 }))?.index,
   drawn: async () => (await deck.pickObjectsAsync({ x: 0, y: 0, width: 300, height: 300 })).map(({ index }) => index),
