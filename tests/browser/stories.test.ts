@@ -4,7 +4,7 @@ import { make as makeRoom } from "../../www/samples/living-room.js";
 import { make as makeStreet } from "../../www/samples/street.js";
 import { TOLD } from "../../www/stories/stories.js";
 import { asciiPly, ball } from "./clouds.js";
-import { addressWritten, inNode, openPage, openReady, provoke, upToDate } from "./support.js";
+import { addressWritten, inNode, openPage, openReady, PHONE, provoke, upToDate } from "./support.js";
 
 type Pair = [number, number];
 
@@ -71,6 +71,16 @@ test("measure: the first tape ends at a hidden point behind the wall, the second
   expect(left.has("story")).toBe(false);
   expect(left.get("measure")).toBe(near.join());
   expect(await page.locator("#tool-bar").isVisible()).toBe(true);
+});
+
+test("measure: on a phone, both ends of the tape are in the picture", async () => {
+  const page = await openPage("?story=measure", PHONE);
+  await told(page, "measure", 0);
+  const ends = await page
+    .locator("#marks .measure .dot")
+    .evaluateAll((dots) => dots.map((dot) => dot.getBoundingClientRect()).map(({ left, right }) => [left, right]));
+  expect(ends).toHaveLength(2);
+  for (const x of ends.flat()) expect(Math.abs(x - 195)).toBeLessThan(195);
 });
 
 test("survey: the number is the package's; it goes on by itself until it is touched, and another cloud ends it", async () => {

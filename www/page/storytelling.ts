@@ -15,6 +15,8 @@ import { sweep } from "./sweep.ts";
 
 /** Milliseconds in which the camera flies to the next step. */
 const FLIGHT = 1500;
+/** The field of view of a picture that is higher than wide: else the ends of a tape are out of it. */
+const NARROW = "&fov=96";
 
 interface Parts {
   viewer: Viewer;
@@ -48,8 +50,9 @@ export class Storytelling {
     this.#player?.end();
     this.#isTelling = true;
     this.#parts.address.tell(name);
+    const lens = this.#parts.viewer.stage.shape.aspect < 1 ? NARROW : "";
     const player = (this.#player = new Player(TOLD[name], {
-      show: (address, signal) => this.#show(`?sample=${STORIES[name]}&${address}`, signal),
+      show: (address, signal) => this.#show(`?sample=${STORIES[name]}&${address}${lens}`, signal),
       figure: (figure) => this.#parts.workshop.figure(figure),
       ended: () => {
         if (this.#player !== player) return;
