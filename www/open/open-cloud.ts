@@ -101,11 +101,11 @@ export async function openCloud(
   );
   own.color = color;
   const { fieldOfView: fov, up } = { ...usual, ...wished };
-  const taken = alone ? { at: alone.viewpoint, target: levelFrom(cloud, alone.viewpoint, up) } : null;
   const homeFrom = (asked: AskedView | null, whole?: boolean) => (upward: Up) => {
     const lens = { fov, ...place.shape() };
+    const taken = alone ? { at: alone.viewpoint, target: levelFrom(cloud, alone.viewpoint, upward) } : null;
     const sameUp = upward === up;
-    return findHome(cloud, upward, sameUp ? sample : null, sameUp ? (asked ?? taken) : null, lens, whole);
+    return findHome(cloud, upward, sameUp ? sample : null, (sameUp ? asked : null) ?? taken, lens, whole);
   };
   const home = homeFrom(view)(up);
   // The worker takes the copy. The page keeps the file's own coordinates for the tools.

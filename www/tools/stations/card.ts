@@ -82,7 +82,8 @@ export class StationCard {
           },
           { class: "remove", "aria-label": `Remove the station ${name}` },
         );
-        return tableRow(name, row ? number.format(row.sees) : "…", row ? number.format(row.alone) : "…", remove);
+        const counts = [row?.sees, row?.alone].map((count) => (count === undefined ? "–" : number.format(count)));
+        return tableRow(name, ...counts, remove);
       }),
     );
     if (!found) return;
