@@ -217,27 +217,16 @@ describe("an answer that is drawn goes back with the next request", () => {
     [0, 0.3, 5],
   ];
 
-  it("of a filter", async () => {
-    const adapter = await adapterFor(VERSIONS[0]![1]);
-    const { points, camera, geometry } = sceneOf(adapter, sphere);
-    const filter = new adapter.HiddenPointFilter(points, { exponent: 3 });
-    for (const place of places) {
-      camera.position.fromArray(place);
-      const change = nextChange(filter);
-      filter.update(camera);
-      await change;
-      expect(drawn(geometry)).toEqual([...direct.visibleFrom(place, { exponent: 3 }).indices]);
-    }
-    filter.dispose();
-    expect([given[0], given.slice(1).every((bytes) => bytes > 0), given.length]).toEqual([0, true, 4]);
-  });
-
-  it.each([false, true])("of a filter that dims, with an index of the user's own: %s", async (indexed) => {
+  it.each([
+    ["of a filter", "hide", false],
+    ["of a filter that dims", "dim", false],
+    ["of a filter that dims, with an index of the user's own", "dim", true],
+  ] as const)("%s", async (_, mode, indexed) => {
     const adapter = await adapterFor(VERSIONS[0]![1]);
     const { points, camera, geometry } = sceneOf(adapter, sphere);
     const own = Array.from({ length: 3000 }, (_, i) => (indexed ? 2999 - i : i));
     if (indexed) geometry.setIndex(own);
-    const filter = new adapter.HiddenPointFilter(points, { exponent: 3, mode: "dim" });
+    const filter = new adapter.HiddenPointFilter(points, { exponent: 3, mode });
     for (const place of places) {
       camera.position.fromArray(place);
       const change = nextChange(filter);
@@ -245,7 +234,8 @@ describe("an answer that is drawn goes back with the next request", () => {
       await change;
       const visible = new Set(direct.visibleFrom(place, { exponent: 3 }).indices);
       expect(drawn(geometry)).toEqual(own.filter((i) => visible.has(i)));
-      expect(drawn((points.children[0] as typeof points).geometry)).toEqual(own.filter((i) => !visible.has(i)));
+      const dimmed = points.children.map((child) => drawn((child as typeof points).geometry));
+      expect(dimmed).toEqual(mode === "dim" ? [own.filter((i) => !visible.has(i))] : []);
     }
     filter.dispose();
     expect([given[0], given.slice(1).every((bytes) => bytes > 0), given.length]).toEqual([0, true, 4]);

@@ -159,21 +159,6 @@ describe("a filter", () => {
     expect(drawn(other.geometry)).toEqual(before);
   });
 
-  it("passes the errors of listeners to the caller, and goes on", () => {
-    const { points, camera, geometry } = sceneOf(adapter, sphere);
-    const filter = filterFor(points, { worker: false });
-    const errors: unknown[] = [];
-    filter.addEventListener("error", ({ error }) => errors.push(error));
-    filter.addEventListener("change", () => {
-      throw new Error("a listener's own");
-    });
-    expect(() => filter.update(camera)).toThrow("a listener's own");
-    camera.position.set(0, 5, 0);
-    expect(() => filter.update(camera)).toThrow("a listener's own");
-    expect(errors).toEqual([]);
-    expect(drawn(geometry)).toEqual([...new adapter.PointCloud(sphere).visibleFrom([0, 5, 0]).indices]);
-  });
-
   describe("says once", () => {
     function heard(filter: Filter): string[] {
       const codes: string[] = [];
@@ -204,22 +189,6 @@ describe("a filter", () => {
         expect(filter.visibleCount).toBeLessThan(2000);
       },
     );
-
-    it("that a radius is too small, and goes on to the view that came meanwhile, without another update", async () => {
-      const { points, camera } = sceneOf(adapter, sphere);
-      const filter = filterFor(points, { radius: 5 });
-      const codes = heard(filter);
-      camera.position.z = 2;
-      filter.update(camera);
-      await filter.ready;
-      for (const z of [6, 2.5]) {
-        camera.position.z = z;
-        filter.update(camera);
-      }
-      const { count } = await nextChange(filter);
-      expect(codes).toEqual(["radius"]);
-      expect(count).toBe(new adapter.PointCloud(sphere).visibleFrom([0, 0, 2.5], { radius: 5 }).count);
-    });
 
     it("that a scale has become uneven", async () => {
       const { points, camera } = sceneOf(adapter, sphere);

@@ -68,26 +68,4 @@ describe("several workers", () => {
     const next = await WorkerPointCloud.create(sphere, { workers: 2 });
     expect((await next.visibleFrom(farAway)).indices).toEqual(new PointCloud(sphere).visibleFrom(farAway).indices);
   });
-
-  it("go on without the worker that got no memory for a change", async () => {
-    replaceWorker(
-      class extends ListedWorker {
-        override postMessage(message: { cloud: number; content: { kind: string } }, ...rest: never[]) {
-          if (message.content.kind === "append" && started[1] === this) {
-            this.emit("message", { ...message, content: { error: { code: "too-large", message: "no memory" } } });
-          } else {
-            super.postMessage(message, ...rest);
-          }
-        }
-      },
-    );
-    const cloud = await WorkerPointCloud.create(sphere, { workers: 3 });
-    const direct = new PointCloud(sphere);
-    const more = bumpySphere(2, 500);
-    direct.append(more);
-    await cloud.append(more);
-    expect(await cloud.visibleFrom(farAway)).toEqual(direct.visibleFrom(farAway));
-    await expect.poll(() => started.map(({ threadId }) => threadId === -1)).toEqual([false, true, false]);
-    await cloud.dispose();
-  });
 });
