@@ -4,7 +4,6 @@ import { captionOf, methodOf, sentenceOf } from "../../www/view/sentence.js";
 import { addStyle } from "./site.js";
 import {
   answerInNode,
-  differentPixels,
   drag,
   dragonPositions,
   openReady,
@@ -15,6 +14,7 @@ import {
   status,
   unfold,
 } from "./support.js";
+import { differentPixels } from "./pixels.js";
 
 const SAMPLE = "?sample=dragon_res3&looks=0";
 
@@ -28,7 +28,7 @@ test("the field of view, the size of points and keys in the panel's fields ask n
   ] as const) {
     const last = await picture(page);
     await page.getByLabel(label, { exact: true }).fill(value);
-    expect(await differentPixels(page, last, await picture(page)), label).toBeGreaterThan(pixels);
+    expect(await differentPixels(last, await picture(page)), label).toBeGreaterThan(pixels);
   }
   await page.keyboard.press("ArrowRight");
   expect(await settled(page)).toEqual(before);
@@ -75,14 +75,14 @@ test("hidden points are off, dimmed or shown, and the change asks nothing", asyn
     [dimmed, shown],
     [off, shown],
   ] as const) {
-    expect(await differentPixels(page, a, b)).toBeGreaterThan(2000);
+    expect(await differentPixels(a, b)).toBeGreaterThan(2000);
   }
   await page.locator("#view").focus();
   await page.keyboard.press("h");
   await expect.poll(() => page.getByRole("radio", { name: "Hide" }).isChecked()).toBe(true);
   // Removes the ring of the keyboard focus.
   await page.locator("#view").blur();
-  expect(await differentPixels(page, off, await picture(page))).toBe(0);
+  expect(await differentPixels(off, await picture(page))).toBe(0);
   expect(await settled(page)).toEqual(before);
 });
 
@@ -97,14 +97,14 @@ test("a frozen viewpoint stays while the camera flies around, until it is releas
   // The mark at the viewpoint is visible only from another place. Until then, a sign says that the viewpoint is frozen.
   expect(await page.locator("#sign-frozen").isVisible()).toBe(true);
   await addStyle(page, "#signs { visibility: hidden }");
-  expect(await differentPixels(page, unfrozen, await picture(page))).toBe(0);
+  expect(await differentPixels(unfrozen, await picture(page))).toBe(0);
   await expect.poll(() => page.locator("#status").textContent()).toMatch(/can be seen from the frozen viewpoint/);
   const there = await picture(page);
   await drag(page, 200, 0);
   const frozen = await settled(page);
   expect(frozen.refilters).toBe(before.refilters);
   expect(frozen.viewpoint).toEqual(before.viewpoint);
-  expect(await differentPixels(page, there, await picture(page))).toBeGreaterThan(2000);
+  expect(await differentPixels(there, await picture(page))).toBeGreaterThan(2000);
 
   await freeze.click();
   const free = await refiltered(page, frozen);

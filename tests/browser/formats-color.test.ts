@@ -4,7 +4,8 @@ import { addStyle } from "./site.js";
 import { ball, georeferencedBall, text } from "./clouds.js";
 import { choose } from "./files.js";
 import { attributedPcd, colorOf, glb, inMillimeters, las, table } from "./formats.js";
-import { answered, openReady, picture, differentPixels, reached, served, unfold, upToDate } from "./support.js";
+import { answered, openReady, picture, reached, served, unfold, upToDate } from "./support.js";
+import { differentPixels, pixelsOf } from "./pixels.js";
 
 const COUNT = 600;
 const near = ball(COUNT);
@@ -61,19 +62,13 @@ test("a cloud can be colored by intensity, class and other attributes", async ()
 
 /** The amounts of red, green and blue in a picture, above its background. */
 async function mean(page: Page): Promise<[number, number, number]> {
-  const image = (await picture(page)).toString("base64");
-  return page.evaluate(async (data) => {
-    const bitmap = await createImageBitmap(await (await fetch(`data:image/png;base64,${data}`)).blob());
-    const context = new OffscreenCanvas(bitmap.width, bitmap.height).getContext("2d")!;
-    context.drawImage(bitmap, 0, 0);
-    const pixels = context.getImageData(0, 0, bitmap.width, bitmap.height).data;
-    const sum: [number, number, number] = [0, 0, 0];
-    for (let i = 0; i < pixels.length; i += 4) {
-      if (Math.max(pixels[i]!, pixels[i + 1]!, pixels[i + 2]!) < 40) continue;
-      sum.forEach((before, channel) => (sum[channel] = before + pixels[i + channel]!));
-    }
-    return sum;
-  }, image);
+  const { data } = await pixelsOf(await picture(page));
+  const sum: [number, number, number] = [0, 0, 0];
+  for (let i = 0; i < data.length; i += 4) {
+    if (Math.max(data[i]!, data[i + 1]!, data[i + 2]!) < 40) continue;
+    sum.forEach((before, channel) => (sum[channel] = before + data[i + channel]!));
+  }
+  return sum;
 }
 
 test("a file's own colors are drawn as they are, also 8-bit colors in 16 bits, and other choices look different", async () => {
@@ -89,17 +84,17 @@ test("a file's own colors are drawn as they are, also 8-bit colors in 16 bits, a
   for (const label of ["One color", "Height"]) {
     await unfold(page, "Look");
     await page.locator("#color").selectOption({ label });
-    expect(await differentPixels(page, own, await picture(page)), label).toBeGreaterThan(500);
+    expect(await differentPixels(own, await picture(page)), label).toBeGreaterThan(500);
   }
   await page.locator("#color").selectOption({ label: "Its own colors" });
-  expect(await differentPixels(page, own, await picture(page))).toBeLessThan(20);
+  expect(await differentPixels(own, await picture(page))).toBeLessThan(20);
 
   await open(page, "wide.las", las(far));
   const wide = await picture(page);
   await open(page, "small.las", las(far, { smallColors: true }));
-  expect(await differentPixels(page, wide, await picture(page))).toBeLessThan(20);
+  expect(await differentPixels(wide, await picture(page))).toBeLessThan(20);
   await open(page, "white.las", las(far, { format: 0 }));
-  expect(await differentPixels(page, wide, await picture(page))).toBeGreaterThan(500);
+  expect(await differentPixels(wide, await picture(page))).toBeGreaterThan(500);
   expect(colorOf(1)).toEqual([1, 2, 254]);
 });
 

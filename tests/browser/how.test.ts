@@ -1,7 +1,8 @@
 import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
 import { asciiPly, ball } from "./clouds.js";
-import { differentPixels, openReady, PHONE, served } from "./support.js";
+import { openReady, PHONE, served } from "./support.js";
+import { differentPixels } from "./pixels.js";
 
 async function openLesson(page: Page): Promise<void> {
   await page.getByRole("button", { name: "How it works" }).click();
@@ -38,7 +39,7 @@ test("the lesson shows the flip and its hull, and lights what another radius cha
   const large = await choose(page, "5");
   expect(large[2]).toBeGreaterThan(wrong! + 500);
   expect(await page.locator("#how [data-say]").textContent()).toContain("Too large");
-  expect(await differentPixels(page, usual, await flipped.screenshot())).toBeGreaterThan(1000);
+  expect(await differentPixels(usual, await flipped.screenshot())).toBeGreaterThan(1000);
 
   const small = await choose(page, "0.1");
   expect(small[3]).toBeGreaterThan(missed! + 300);

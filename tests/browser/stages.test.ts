@@ -6,7 +6,6 @@ import { USUAL_SETTINGS } from "../../www/settings/settings.js";
 import { asciiPly, ball } from "./clouds.js";
 import { hold, holdable, release } from "./held.js";
 import {
-  differentPixels,
   drag,
   dragonPositions,
   inNode,
@@ -20,6 +19,7 @@ import {
   status,
   upToDate,
 } from "./support.js";
+import { differentPixels, pixelsOf } from "./pixels.js";
 
 test.for([
   ["", 3, []],
@@ -78,18 +78,13 @@ test("in the page: maps while the camera moves, then looks; a map keeps the numb
 });
 
 /** How many pixels of a picture are the dark background. */
-async function empty(page: Page, image: Buffer): Promise<number> {
-  return page.evaluate(async (data) => {
-    const bitmap = await createImageBitmap(await (await fetch(`data:image/png;base64,${data}`)).blob());
-    const context = new OffscreenCanvas(bitmap.width, bitmap.height).getContext("2d")!;
-    context.drawImage(bitmap, 0, 0);
-    const { data: pixels } = context.getImageData(0, 0, bitmap.width, bitmap.height);
-    let count = 0;
-    for (let i = 0; i < pixels.length; i += 4) {
-      if (Math.abs(pixels[i]! - 20) + Math.abs(pixels[i + 1]! - 22) + Math.abs(pixels[i + 2]! - 26) < 6) count++;
-    }
-    return count;
-  }, image.toString("base64"));
+async function empty(image: Buffer): Promise<number> {
+  const { data } = await pixelsOf(image);
+  let count = 0;
+  for (let i = 0; i < data.length; i += 4) {
+    if (Math.abs(data[i]! - 20) + Math.abs(data[i + 1]! - 22) + Math.abs(data[i + 2]! - 26) < 6) count++;
+  }
+  return count;
 }
 
 test("while an answer for a new place is awaited, no shadow of the old viewpoint is seen, and a sign says so", async () => {
@@ -107,7 +102,7 @@ test("while an answer for a new place is awaited, no shadow of the old viewpoint
   await upToDate(page);
   const final = await picture(page);
   expect(await page.locator("#sign-work").isVisible()).toBe(false);
-  const [before, after] = [await empty(page, stale), await empty(page, final)];
+  const [before, after] = [await empty(stale), await empty(final)];
   // The camera has turned by 90°: with only the old answer, half of the dragon would be missing.
   expect(before).toBeLessThan(1.01 * after);
 });
@@ -173,11 +168,11 @@ test("the points of a file are drawn before the first answer, and the status has
   const early = await picture(page);
   expect((await status(page)).state).toBe("loading");
   const { width, height } = await page.evaluate(() => ({ width: innerWidth, height: innerHeight }));
-  expect(await empty(page, early)).toBeLessThan(0.22 * width * height);
+  expect(await empty(early)).toBeLessThan(0.22 * width * height);
   await release(page);
   await reached(page, "ready");
   await upToDate(page);
-  expect(await empty(page, await picture(page))).toBeLessThan(0.22 * width * height);
+  expect(await empty(await picture(page))).toBeLessThan(0.22 * width * height);
 });
 
 test("a file that cannot be opened leaves the cloud and the camera as they were, although its points were drawn", async () => {
@@ -193,5 +188,5 @@ test("a file that cannot be opened leaves the cloud and the camera as they were,
   expect((await reached(page, "error")).sentence).toContain("cut.ply");
   await page.getByRole("button", { name: "Dismiss" }).click();
   expect(await upToDate(page)).toMatchObject({ viewpoint: before.viewpoint, visible: before.visible });
-  expect(await differentPixels(page, shown, await picture(page))).toBe(0);
+  expect(await differentPixels(shown, await picture(page))).toBe(0);
 });

@@ -244,44 +244,6 @@ function readDragon(resolution: string): Float32Array {
   return Float32Array.from(lines.flatMap((line) => line.trim().split(" ").slice(0, 3).map(Number)));
 }
 
-/** The mean of all channels in a square of a screenshot, from 0 to 255. */
-export async function brightness(page: Page, image: Buffer, x: number, y: number, side: number): Promise<number> {
-  return page.evaluate(
-    async ([data, left, top, size]) => {
-      const bitmap = await createImageBitmap(await (await fetch(`data:image/png;base64,${data}`)).blob());
-      const context = new OffscreenCanvas(bitmap.width, bitmap.height).getContext("2d")!;
-      context.drawImage(bitmap, 0, 0);
-      const pixels = context.getImageData(Math.round(left - size / 2), Math.round(top - size / 2), size, size).data;
-      let sum = 0;
-      for (let i = 0; i < pixels.length; i += 4) sum += pixels[i]! + pixels[i + 1]! + pixels[i + 2]!;
-      return sum / (0.75 * pixels.length);
-    },
-    [image.toString("base64"), x, y, side] as const,
-  );
-}
-
-/** How many pixels of two screenshots differ by more than a trace. */
-export async function differentPixels(page: Page, before: Buffer, after: Buffer): Promise<number> {
-  return page.evaluate(
-    async (images) => {
-      const [a, b] = await Promise.all(
-        images.map(async (image) => {
-          const bitmap = await createImageBitmap(await (await fetch(`data:image/png;base64,${image}`)).blob());
-          const context = new OffscreenCanvas(bitmap.width, bitmap.height).getContext("2d")!;
-          context.drawImage(bitmap, 0, 0);
-          return context.getImageData(0, 0, bitmap.width, bitmap.height).data;
-        }),
-      );
-      let different = 0;
-      for (let i = 0; i < a!.length; i += 4) {
-        if ([0, 1, 2].some((channel) => Math.abs(a![i + channel]! - b![i + channel]!) > 8)) different++;
-      }
-      return different;
-    },
-    [before.toString("base64"), after.toString("base64")],
-  );
-}
-
 /** A picture of the cloud after it was drawn. */
 export async function picture(page: Page): Promise<Buffer> {
   await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));

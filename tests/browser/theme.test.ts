@@ -3,15 +3,19 @@ import { expect, test } from "vitest";
 import { type ThemeName, THEMES } from "../../www/view/theme.ts";
 import { at, clickPoint, everything, openBall, tool } from "./ball.js";
 import { EVERY_PIXEL, openPage, openReady, picture, settled, status, unfold } from "./support.js";
+import { pixelsOf } from "./pixels.js";
 
 /** Points that are surely visible: they bulge most towards the viewer. */
 const NEAREST = everything.toSorted((i, j) => at(j)[2] - at(i)[2]).slice(0, 2);
 
 const OTHER: Record<ThemeName, ThemeName> = { dark: "light", light: "dark" };
 
+const colorAt = (data: Uint8Array, at: number) => `#${Buffer.from(data.subarray(at, at + 3)).toString("hex")}`;
+
 /** The colors of the page: the background in the corner of the canvas, and the colors of the page's parts. */
 async function colors(page: Page): Promise<Record<string, string>> {
-  const corner = await pixel(page, await picture(page), 4, 4);
+  const { data, width } = await pixelsOf(await picture(page));
+  const corner = colorAt(data, 4 * (4 * width + 4));
   const own = await page.evaluate(() => {
     const hex = (css: string) =>
       `#${css
@@ -26,19 +30,6 @@ async function colors(page: Page): Promise<Record<string, string>> {
     };
   });
   return { corner, ...own };
-}
-
-async function pixel(page: Page, png: Buffer, x: number, y: number): Promise<string> {
-  return page.evaluate(
-    async ([data, left, top]) => {
-      const bitmap = await createImageBitmap(await (await fetch(`data:image/png;base64,${data}`)).blob());
-      const context = new OffscreenCanvas(bitmap.width, bitmap.height).getContext("2d")!;
-      context.drawImage(bitmap, 0, 0);
-      const [r, g, b] = context.getImageData(left, top, 1, 1).data;
-      return `#${[r, g, b].map((value) => value!.toString(16).padStart(2, "0")).join("")}`;
-    },
-    [png.toString("base64"), x, y] as const,
-  );
 }
 
 function expectTheme(seen: Record<string, string>, name: ThemeName): void {
@@ -91,7 +82,7 @@ test("points, hidden points and the saved picture's marks have the theme's color
     const stream = await (await download).createReadStream();
     const parts: Buffer[] = [];
     for await (const part of stream) parts.push(part as Buffer);
-    drawn[name] = await commonColors(page, Buffer.concat(parts));
+    drawn[name] = await commonColors(Buffer.concat(parts));
     const mark = { dark: "#e7b562", light: "#8a5a0b" };
     expect(drawn[name], name).toContain(THEMES[name].background);
     expect(drawn[name], name).toContain(mark[name]);
@@ -101,17 +92,9 @@ test("points, hidden points and the saved picture's marks have the theme's color
 });
 
 /** All colors of more than three pixels. */
-async function commonColors(page: Page, png: Buffer): Promise<string[]> {
-  return page.evaluate(async (data) => {
-    const bitmap = await createImageBitmap(await (await fetch(`data:image/png;base64,${data}`)).blob());
-    const context = new OffscreenCanvas(bitmap.width, bitmap.height).getContext("2d")!;
-    context.drawImage(bitmap, 0, 0);
-    const { data: pixels } = context.getImageData(0, 0, bitmap.width, bitmap.height);
-    const counts = new Map<number, number>();
-    for (let i = 0; i < pixels.length; i += 4) {
-      const color = (pixels[i]! << 16) | (pixels[i + 1]! << 8) | pixels[i + 2]!;
-      counts.set(color, (counts.get(color) ?? 0) + 1);
-    }
-    return [...counts].filter(([, count]) => count > 3).map(([color]) => `#${color.toString(16).padStart(6, "0")}`);
-  }, png.toString("base64"));
+async function commonColors(png: Buffer): Promise<string[]> {
+  const { data } = await pixelsOf(png);
+  const counts = new Map<string, number>();
+  for (let i = 0; i < data.length; i += 4) counts.set(colorAt(data, i), (counts.get(colorAt(data, i)) ?? 0) + 1);
+  return [...counts].filter(([, count]) => count > 3).map(([color]) => color);
 }

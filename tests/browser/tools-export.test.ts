@@ -2,7 +2,8 @@ import { readFileSync } from "node:fs";
 import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
 import { at, clickPoint, everything, openBall, tool, visible, within } from "./ball.js";
-import { differentPixels, EVERY_PIXEL, openReady, picture, status, upToDate } from "./support.js";
+import { EVERY_PIXEL, openReady, picture, status, upToDate } from "./support.js";
+import { differentPixels } from "./pixels.js";
 import { addStyle } from "./site.js";
 
 const COLOR = (index: number) => [index % 256, (7 * index) % 256, 255 - (index % 256)];
@@ -164,9 +165,9 @@ test("the picture is saved as it is on the screen, with its marks", async () => 
   await addStyle(page, "#tools, #drawer { visibility: hidden }");
   await page.locator("#view").blur();
   const shown = await picture(page);
-  expect(await differentPixels(page, shown, png.content)).toBeLessThan(60);
+  expect(await differentPixels(shown, png.content)).toBeLessThan(60);
   await addStyle(page, "#marks { visibility: hidden }");
-  expect(await differentPixels(page, await picture(page), png.content)).toBeGreaterThan(200);
+  expect(await differentPixels(await picture(page), png.content)).toBeGreaterThan(200);
 });
 
 test("while the WebGL context is lost, no picture is saved and a message says so", async () => {

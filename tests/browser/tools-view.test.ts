@@ -1,7 +1,8 @@
 import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
 import { at, openBall, place, tool } from "./ball.js";
-import { differentPixels, drag, openReady, PHONE, picture, settled, status, upToDate } from "./support.js";
+import { drag, openReady, PHONE, picture, settled, status, upToDate } from "./support.js";
+import { differentPixels } from "./pixels.js";
 
 /** Where the divider is, in pixels from the left. */
 async function dividerAt(page: Page): Promise<number> {
@@ -35,8 +36,8 @@ test("the divider shows all points to its left and visible ones to its right, by
   await page.mouse.up();
   expect(await dividerAt(page)).toBeCloseTo(x, 0);
   const divided = await halves(page, x);
-  expect(await differentPixels(page, plain[0], divided[0])).toBeGreaterThan(2000);
-  expect(await differentPixels(page, plain[1], divided[1])).toBe(0);
+  expect(await differentPixels(plain[0], divided[0])).toBeGreaterThan(2000);
+  expect(await differentPixels(plain[1], divided[1])).toBe(0);
 
   await divider.focus();
   const value = async () => Number(await divider.getAttribute("aria-valuenow"));
@@ -48,7 +49,7 @@ test("the divider shows all points to its left and visible ones to its right, by
   await page.keyboard.press("Home");
   expect(await value()).toBe(0);
   // Only visible points are left.
-  expect(await differentPixels(page, plain[1], (await halves(page, x))[1])).toBe(0);
+  expect(await differentPixels(plain[1], (await halves(page, x))[1])).toBe(0);
   expect(await status(page)).toEqual(before);
 
   await page.locator("#view").focus();
