@@ -137,7 +137,7 @@ impl PointCloud {
     ) -> Result<(), Error> {
         for &seat in seats {
             if let Seat::Camera(camera) = seat.into() {
-                camera.lens()?;
+                camera.check()?;
             }
         }
         let count = seats.len();

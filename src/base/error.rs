@@ -223,7 +223,7 @@ impl fmt::Display for Error {
                 farthest,
             } => write!(
                 f,
-                "twice the radius {} exceeds the range of f64 (the farthest distance is {})",
+                "radius must be at most 8.98e307, got {} (an exponent e makes it {} * 10^e)",
                 Number(radius),
                 Number(farthest)
             ),

@@ -159,6 +159,14 @@ impl Camera {
         self.pose.rigid().1.to_array()
     }
 
+    /// Refuses what every question refuses. It tells which of many cameras that is.
+    ///
+    /// # Errors
+    /// [`Error::Camera`].
+    pub fn check(&self) -> Result<(), Error> {
+        self.lens().map(|_| ())
+    }
+
     /// The camera, ready to project points.
     pub(crate) fn lens(&self) -> Result<Lens<'_>, Error> {
         let infinity = f64::INFINITY;

@@ -48,7 +48,14 @@ it("questions that make no sense are refused", async () => {
   const bad: [() => unknown, string, RegExp][] = [
     [() => cloud.coverage(5 as never), "viewpoint", /viewpoints must be an array/],
     [() => cloud.coverage([[1, 2]]), "viewpoint", /viewpoints\[0\]/],
-    [() => cloud.placeViewpoints([[1, 2, NaN]]), "viewpoint", /must be finite/],
+    [() => cloud.placeViewpoints([places[0]!, [1, 2, NaN]]), "viewpoint", /viewpoint candidates\[1\] must be finite/],
+    [
+      () => cloud.coverage([...places, [1e9, 0, 0]], { radius: 8 }),
+      "radius",
+      new RegExp(`viewpoint ${places.length}: radius 8`),
+    ],
+    [() => cloud.coverage(places, { onProgress: () => cloud.append([]) }), "option", /must not change the cloud/],
+    [() => cloud.placeViewpoints(places, { onProgress: () => cloud.remove([]) }), "option", /must not change/],
     [() => cloud.coverage(places, { draft: true }), "option", /draft cannot be combined with coverage/],
     [() => cloud.placeViewpoints(places, { looks: 2, scores: true }), "option", /scores cannot be combined/],
     [() => cloud.placeViewpoints(places, { count: 0 }), "option", /count must be an integer from 1/],

@@ -68,7 +68,7 @@ const refusals: Refusal[] = [
   ["radius", /-7/, view(farAway, { radius: -7 })],
   ["radius", /\b5\.5\b.*farthest/, view(farAway, { radius: 5.5 })],
   ["radius", /range/, view([0, 0, 1e200], { radius: 1e300 })],
-  ["radius", /range/, view(farAway, { radius: 1.5e308 })],
+  ["radius", /at most 8.98e307/, view(farAway, { radius: 1.5e308 })],
 
   ["option", /dimension.*1/, newCloud(sphere, { dimension: 1 })],
   ["option", /dimension.*65/, newCloud(sphere, { dimension: 65 })],
@@ -185,7 +185,7 @@ describe("messages of the core", () => {
       () => hiddenPointRemoval([3, 4, 0], [0, 0, 0], { radius: 1.2e-7 }),
     ],
     [
-      "twice the radius 1.5e308 exceeds the range of f64 (the farthest distance is 5)",
+      "radius must be at most 8.98e307, got 1.5e308 (an exponent e makes it 5 * 10^e)",
       () => hiddenPointRemoval([3, 4, 0], [0, 0, 0], { radius: 1.5e308 }),
     ],
     ["the farthest distance (infinity) exceeds the range of f64", () => hiddenPointRemoval([1e200, 0, 0], [0, 0, 0])],

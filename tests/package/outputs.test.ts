@@ -87,7 +87,7 @@ describe("refusals", () => {
     ["viewpoint", /NaN/, () => small.reconstruct([0, 0, NaN])],
     ["viewpoint", /lights.*undefined/, () => small.illuminate(loose(undefined))],
     ["viewpoint", /lights\[0\].*\b4 of them/, () => small.illuminate([[1, 2, 3, 4]])],
-    ["viewpoint", /infinity/, () => small.illuminate([[1, 2, Infinity]])],
+    ["viewpoint", /Infinity/, () => small.illuminate([[1, 2, Infinity]])],
     ["option", /ambient.*1\.5/, light({ ambient: 1.5 })],
     ["option", /ambient.*-0\.5/, light({ ambient: -0.5 })],
     ["option", /ambient.*NaN/, light({ ambient: NaN })],

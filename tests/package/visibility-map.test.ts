@@ -111,6 +111,8 @@ it("refuses what has no map", () => {
     { corners: 1e9 },
     { points: NaN },
     { towards: 1 },
+    { towards: [0, 0, 1] },
+    { towards: { direction: [1, 0, 0], angle: 9, aperture: 1 } },
     { towards: { direction: [1, 0, 0], angle: 0 } },
     { towards: { direction: [1, 0, 0] } },
     { vote: 5 },

@@ -42,6 +42,13 @@ export class HprError extends Error {
   }
 }
 
+/** An error that says which argument it is about. */
+export function about(argument: string | undefined, thrown: unknown): unknown {
+  return argument !== undefined && thrown instanceof HprError
+    ? new HprError(thrown.code, `${argument}: ${thrown.message}`, { cause: thrown })
+    : thrown;
+}
+
 /** Any thrown value as an error. */
 export function asError(thrown: unknown): Error {
   return thrown instanceof Error ? thrown : new Error(String(thrown));

@@ -1,5 +1,6 @@
 /// <reference lib="esnext.disposable" preserve="true" />
 import type { ChosenRadius, Found } from "../query/answers.js";
+import { HprError } from "../base/errors.js";
 import { CoreCloud } from "./core-cloud.js";
 import { addDisposeSymbol } from "../base/dispose-symbol.js";
 import { addTag } from "../base/tag.js";
@@ -269,14 +270,18 @@ export class PointCloud {
    * Asks all views of a task, one after another.
    * @hidden
    */
-  [SURVEY]<Result>(...[, options, names, read]: SurveyQuestion<Result>): Result {
+  [SURVEY]<Result>(...[method, options, names, read]: SurveyQuestion<Result>): Result {
     this.#core.requireOpen();
     const given = givenOptions(options, names);
     const task = read(this.#core.dimension, given, readListener(given));
+    const { size } = this.#core;
     for (let next = task.next(0); next !== undefined; next = task.next(0)) {
       const found: Found = this.#core.ask(next.view);
       task.take(next.number, found);
       this.#core.keepMemory(found.indices.buffer);
+      if (this.#core.size !== size) {
+        throw new HprError("option", `${method}: onProgress must not change the cloud`);
+      }
     }
     return task.result(this.length);
   }

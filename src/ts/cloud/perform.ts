@@ -1,5 +1,5 @@
 import type { Answers, Found } from "../query/answers.js";
-import { HprError } from "../base/errors.js";
+import { about, HprError } from "../base/errors.js";
 import type { Bindings, Instance } from "../instance/instance.js";
 import { allocating } from "../base/memory.js";
 import type { Query, QueryKind } from "../query/queries.js";
@@ -72,8 +72,8 @@ const performers: { [K in QueryKind]: (target: Target, query: Query<K>) => Answe
 
   visibleFromSeats: (target, { seats, k, settings }) => {
     const counts = newCounts(target.length);
-    const views = seats.map((seat): Found => {
-      const { indices, ...view } = perform(target, viewFrom(seat, settings));
+    const views = seats.map((_, at): Found => {
+      const { indices, ...view } = perform(target, viewFrom(seats, at, settings));
       for (const index of indices) counts[index]! += 1;
       return { ...view, indices: new Uint32Array(0) };
     });
@@ -179,7 +179,11 @@ function inImage(indices: Uint32Array<ArrayBuffer>, shown: Float32Array<ArrayBuf
 
 /** Asks the core. */
 export function perform<K extends QueryKind>(target: Target, query: Query<K>): Answers[K] {
-  return performers[query.kind](target, query);
+  try {
+    return performers[query.kind](target, query);
+  } catch (thrown) {
+    throw about(query.argument, thrown);
+  }
 }
 
 /** A view's settings as the core reads them. The core calls `memory` for its arrays, first for the indices. */

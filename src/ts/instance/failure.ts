@@ -23,7 +23,7 @@ const MESSAGES = {
   radiusTooSmall: (radius, farthest) =>
     `radius ${radius} is smaller than the distance of the farthest point, ${farthest}`,
   radiusOverflow: (radius, farthest) =>
-    `twice the radius ${radius} exceeds the range of f64 (the farthest distance is ${farthest})`,
+    `radius must be at most 8.98e307, got ${radius} (an exponent e makes it ${farthest} * 10^e)`,
   distanceOverflow: (farthest) => `the farthest distance (${farthest}) exceeds the range of f64`,
   tooManyPoints: (count, limit) => `${count} points exceed the limit of ${limit}`,
   mergeRadius: () =>

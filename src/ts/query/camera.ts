@@ -1,5 +1,5 @@
 import { describe, HprError } from "../base/errors.js";
-import { givenOptions } from "./options.js";
+import { entriesOf } from "./options.js";
 
 /** COLMAP's models of a camera. */
 export type CameraModel =
@@ -169,11 +169,7 @@ function named(camera: unknown, whose: string): Record<string, unknown> {
   if (typeof camera !== "object" || camera === null) {
     throw new HprError("viewpoint", `the ${whose} must be an object, got ${describe(camera)}`);
   }
-  try {
-    return givenOptions(camera, NAMES);
-  } catch (cause) {
-    throw cause instanceof HprError ? new HprError(cause.code, `${whose}: ${cause.message}`, { cause }) : cause;
-  }
+  return entriesOf(whose, camera, NAMES);
 }
 
 function numbers(whose: string, name: string, list: unknown, count: number): number[] {

@@ -1,6 +1,6 @@
-import { describe, HprError } from "../base/errors.js";
+import { describe, HprError, typeTag } from "../base/errors.js";
 import { type Camera, type CameraNumbers, coneOf, isCamera, readCamera } from "./camera.js";
-import { givenOptions, integer, number } from "./options.js";
+import { entriesOf, integer, number } from "./options.js";
 import { MOST_POINTS, readViewpoint, type Viewpoint } from "./positions.js";
 import { VIEW_OPTIONS, type VisibilityOptions } from "./view-options.js";
 
@@ -46,17 +46,14 @@ export function mapNumbers(given: Record<string, unknown>): MapNumbers {
   const camera = isCamera(towards) ? readCamera(towards) : undefined;
   const cone = camera ? coneOf(camera) : towards === undefined ? [0, 0, 0, 0] : readCone(towards);
   const place = origin === undefined ? [Infinity, 0, 0] : readViewpoint(origin, 3, "origin");
-  if (origin !== undefined && !place.every(Number.isFinite)) {
-    throw new HprError("viewpoint", `the origin must be finite, got ${place.join(", ")}`);
-  }
   return { map: Float64Array.of(points, corners, ...cone, ...place), camera };
 }
 
 function readCone(towards: unknown): number[] {
-  if (typeof towards !== "object" || towards === null) {
+  if (typeTag(towards) !== "Object") {
     throw new HprError("option", `towards must be a camera or { direction, angle }, got ${describe(towards)}`);
   }
-  const given = givenOptions(towards, ["direction", "angle"]);
+  const given = entriesOf("towards", towards, ["direction", "angle"]);
   const angle = number(given, "angle") ?? Number.NaN;
   if (!(angle > 0 && angle <= 360)) {
     throw new HprError(
@@ -64,5 +61,5 @@ function readCone(towards: unknown): number[] {
       `the angle of towards must be above 0 and at most 360, got ${describe(given["angle"])}`,
     );
   }
-  return [...readViewpoint(given["direction"], 3, "direction"), angle];
+  return [...readViewpoint(given["direction"], 3, "direction of towards"), angle];
 }

@@ -1,4 +1,4 @@
-import { describe, HprError, typeTag } from "../base/errors.js";
+import { about, describe, HprError, typeTag } from "../base/errors.js";
 
 /** How the positions of a cloud are read. */
 export interface PointCloudOptions {
@@ -66,6 +66,15 @@ export function givenOptions(options: unknown, ...groups: readonly (readonly str
     given[name] = value;
   }
   return given;
+}
+
+/** The entries of an option that is an object. Errors name the option. */
+export function entriesOf(option: string, value: unknown, names: readonly string[]): Record<string, unknown> {
+  try {
+    return givenOptions(value, names);
+  } catch (cause) {
+    throw about(option, cause);
+  }
 }
 
 /**

@@ -75,8 +75,8 @@ export function packed(
 }
 
 /**
- * A viewpoint's coordinates, in the core's dimension. Their number is checked here, since the core
- * does not know that a plane has two. The core checks that they are finite.
+ * A viewpoint's coordinates, in the core's dimension. They are checked here: the core knows neither that a plane has
+ * two, nor which of several viewpoints is refused.
  */
 export function readViewpoint(given: unknown, dimension: number, name = "viewpoint"): number[] {
   const viewpoint = listed(given, dimension);
@@ -93,13 +93,10 @@ export function readViewpoint(given: unknown, dimension: number, name = "viewpoi
       `the ${name} must be ${dimension} numbers, got ${coordinates.map(describe).join(", ")}`,
     );
   }
-  if (dimension === 2) {
-    if (!coordinates.every(Number.isFinite)) {
-      throw new HprError("viewpoint", `the ${name} must be finite, got ${coordinates.join(", ")}`);
-    }
-    coordinates.push(0);
+  if (!coordinates.every(Number.isFinite)) {
+    throw new HprError("viewpoint", `the ${name} must be finite, got ${coordinates.join(", ")}`);
   }
-  return coordinates;
+  return dimension === 2 ? [...coordinates, 0] : coordinates;
 }
 
 /** An object `{ x, y, z }`, such as a vector of three.js, as a list. */

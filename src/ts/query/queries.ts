@@ -88,7 +88,8 @@ export interface Questions {
 }
 
 export type QueryKind = keyof Questions;
-export type Query<K extends QueryKind = QueryKind> = { [P in K]: { kind: P } & Questions[P] }[K];
+/** `argument`: which of several viewpoints or cameras it is about, for errors. */
+export type Query<K extends QueryKind = QueryKind> = { [P in K]: { kind: P; argument?: string } & Questions[P] }[K];
 
 // In the functions below, `given` holds options whose names were checked against these lists. A worker
 // accepts more names.

@@ -18,7 +18,10 @@ import {
 
 /** How points are counted from many viewpoints. */
 export interface CoverageOptions extends VisibilityOptions {
-  /** Is told the share of the viewpoints that is done: growing numbers, 1 at the end. */
+  /**
+   * Is told the share of the viewpoints that is done: growing numbers, 1 at the end. It must not change the cloud
+   * (`option`). In a worker, a change waits for the answer.
+   */
   onProgress?: ((fraction: number) => void) | undefined;
 }
 
@@ -107,11 +110,12 @@ function readWeights(weights: unknown): Float64Array<ArrayBuffer> {
   return own;
 }
 
-/** The view from one seat, by one worker. */
-export function viewFrom(seat: Seat, settings: ViewSettings, towards = false): View {
+/** The view from one of several seats, by one worker. */
+export function viewFrom(seats: readonly Seat[], at: number, settings: ViewSettings, towards = false): View {
+  const seat = seats[at]!;
   return isCameraSeat(seat)
-    ? { kind: "visibleFromCamera", camera: seat, settings, divisible: false, towards }
-    : { kind: "visibleFrom", viewpoint: seat, settings, divisible: false };
+    ? { kind: "visibleFromCamera", camera: seat, settings, divisible: false, towards, argument: `camera ${at}` }
+    : { kind: "visibleFrom", viewpoint: seat, settings, divisible: false, argument: `viewpoint ${at}` };
 }
 
 /** The method by which clouds, here and in workers, answer a survey. */
@@ -168,7 +172,7 @@ export abstract class SurveyTask<Result = unknown> {
     }
     this.#asked.add(number);
     const { seats, settings, towards } = this.#survey;
-    return { number, view: viewFrom(seats[number]!, settings, towards) };
+    return { number, view: viewFrom(seats, number, settings, towards) };
   }
 
   take(number: number, found: Found): void {

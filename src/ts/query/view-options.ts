@@ -1,5 +1,5 @@
 import { describe, HprError } from "../base/errors.js";
-import { flag, givenOptions, integer, number } from "./options.js";
+import { entriesOf, flag, integer, number } from "./options.js";
 import { MOST_POINTS } from "./positions.js";
 import { ALL_POINTS, type Within, type WithinSettings, withinSettings } from "./within.js";
 
@@ -280,7 +280,7 @@ export function chosenInversion(inversion: unknown): Pick<ViewSettings, "kernel"
       `inversion must be "spherical", { power } or { exponential }, got ${describe(inversion)}`,
     );
   }
-  const { power, exponential } = givenInversion(inversion);
+  const { power, exponential } = entriesOf("inversion", inversion, ["power", "exponential"]);
   if ((power === undefined) === (exponential === undefined)) {
     throw new HprError("option", "inversion must have one of power and exponential");
   }
@@ -297,15 +297,6 @@ export function chosenInversion(inversion: unknown): Pick<ViewSettings, "kernel"
     throw new HprError("option", `inversion exponential must be a number or "auto", got ${describe(exponential)}`);
   }
   return { kernel: Kernel.exponential, parameter: exponential };
-}
-
-/** Reads an inversion that is an object. Its errors name the option `inversion`. */
-function givenInversion(inversion: unknown): Record<string, unknown> {
-  try {
-    return givenOptions(inversion, ["power", "exponential"]);
-  } catch (cause) {
-    throw cause instanceof HprError ? new HprError(cause.code, `inversion: ${cause.message}`, { cause }) : cause;
-  }
 }
 
 /** The number of neighbors. The core checks it again: only the core knows how many points are present. */

@@ -1,7 +1,7 @@
 import { describe, HprError } from "../base/errors.js";
 import { allocating } from "../base/memory.js";
 import { plainView, typedArrayType } from "../base/typed-arrays.js";
-import { givenOptions, number } from "./options.js";
+import { entriesOf, number } from "./options.js";
 
 /**
  * Which points take part in a view. A point must meet all of the given conditions. The other points
@@ -33,22 +33,13 @@ export function withinSettings(within: unknown, dimension: number): WithinSettin
   if (dimension > 3) {
     throw new HprError("option", `within needs a cloud of dimension 3, not ${dimension}`);
   }
-  const given = named(within);
+  const given = entriesOf("within", within, ["distance", "box", "mask"]);
   const distance = number(given, "distance");
   const { box, mask } = given;
   return {
     within: distance === undefined && box === undefined ? undefined : numbers(distance, box, dimension),
     mask: mask === undefined ? undefined : readMask(mask),
   };
-}
-
-/** The given conditions. Errors name the option. */
-function named(within: unknown): Record<string, unknown> {
-  try {
-    return givenOptions(within, ["distance", "box", "mask"]);
-  } catch (cause) {
-    throw cause instanceof HprError ? new HprError(cause.code, `within: ${cause.message}`, { cause }) : cause;
-  }
 }
 
 function numbers(distance: number | undefined, box: unknown, dimension: number): Float64Array<ArrayBuffer> {

@@ -112,21 +112,13 @@ export function viewRequest(viewpoint: unknown, options: unknown): ViewRequest {
     throw new HprError("option", `onProgress must be a function, got ${describe(onProgress)}`);
   }
   return {
-    viewpoint: readFinite(viewpoint),
+    viewpoint: readViewpoint(viewpoint, 3),
     merge: mergeOptions(pick(given, ["radius", "inversion"])),
     budget: integer(given, "budget", 1, MOST_POINTS) ?? MANY,
     requests: integer(given, "requests", 1, MOST_REQUESTS) ?? 6,
     signal: readSignal(given["signal"]),
     onProgress: onProgress as ViewRequest["onProgress"],
   };
-}
-
-function readFinite(viewpoint: unknown): number[] {
-  const numbers = readViewpoint(viewpoint, 3);
-  if (!numbers.every(Number.isFinite)) {
-    throw new HprError("viewpoint", `the viewpoint must be finite, got ${numbers.join(", ")}`);
-  }
-  return numbers;
 }
 
 /** The inversion that is asked for, checked before anything is read. Undefined for the automatic one. */
