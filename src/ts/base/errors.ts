@@ -42,11 +42,14 @@ export class HprError extends Error {
   }
 }
 
-/** An error that says which argument it is about. */
-export function about(argument: string | undefined, thrown: unknown): unknown {
-  return argument !== undefined && thrown instanceof HprError
-    ? new HprError(thrown.code, `${argument}: ${thrown.message}`, { cause: thrown })
-    : thrown;
+/** The value of `read`, whose errors say which argument they are about. */
+export function naming<T>(argument: string | undefined, read: () => T): T {
+  try {
+    return read();
+  } catch (cause) {
+    if (argument === undefined || !(cause instanceof HprError)) throw cause;
+    throw new HprError(cause.code, `${argument}: ${cause.message}`, { cause });
+  }
 }
 
 /** Any thrown value as an error. */

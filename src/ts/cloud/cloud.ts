@@ -6,7 +6,14 @@ import { addDisposeSymbol } from "../base/dispose-symbol.js";
 import { addTag } from "../base/tag.js";
 import { type MethodName, readQuestion } from "./methods.js";
 import { requireInstance } from "../instance/instance.js";
-import { CLOUD_OPTIONS, cloudSettings, givenOptions, pick, type PointCloudOptions } from "../query/options.js";
+import {
+  CLOUD_OPTIONS,
+  cloudSettings,
+  givenOptions,
+  listener,
+  pick,
+  type PointCloudOptions,
+} from "../query/options.js";
 import type { Positions, Viewpoint } from "../query/positions.js";
 import type { Camera } from "../query/camera.js";
 import type { Panorama, PanoramaOptions } from "../query/panorama-options.js";
@@ -17,13 +24,7 @@ import type { Placement } from "../query/placement.js";
 import type { ViewpointOrCamera } from "../query/seats.js";
 import type { SeenBy } from "../query/seen-by.js";
 import { surveyQuestion } from "../query/survey-methods.js";
-import {
-  type CoverageOptions,
-  type PlacementOptions,
-  readListener,
-  SURVEY,
-  type SurveyQuestion,
-} from "../query/surveys.js";
+import { type CoverageOptions, type PlacementOptions, SURVEY, type SurveyQuestion } from "../query/surveys.js";
 import { type RadiusRule, VIEW_OPTIONS, type VisibilityOptions } from "../query/view-options.js";
 import { type CameraView, type Reconstruction, type Visibility, VisibilityAnswer } from "./visibility.js";
 import type { VisibilityMap } from "./visibility-map.js";
@@ -273,7 +274,8 @@ export class PointCloud {
   [SURVEY]<Result>(...[method, options, names, read]: SurveyQuestion<Result>): Result {
     this.#core.requireOpen();
     const given = givenOptions(options, names);
-    const task = read(this.#core.dimension, given, readListener(given));
+    const progress = listener(given, "onProgress") as CoverageOptions["onProgress"];
+    const task = read(this.#core.dimension, given, progress);
     const { size } = this.#core;
     for (let next = task.next(0); next !== undefined; next = task.next(0)) {
       const found: Found = this.#core.ask(next.view);

@@ -1,4 +1,4 @@
-import { describe, HprError } from "../base/errors.js";
+import { describe, HprError, naming } from "../base/errors.js";
 import { requireInstance } from "../instance/instance.js";
 import { allocating } from "../base/memory.js";
 import { givenOptions } from "../query/options.js";
@@ -89,54 +89,38 @@ function readParts(parts: unknown): ReadPart[] {
   if (!Array.isArray(parts)) {
     throw new HprError("option", `parts must be an array of { positions, ids }, got ${describe(parts)}`);
   }
-  const read = Array.from(parts, readPart);
+  const inPart = <T>(number: number, read: () => T) => naming(`parts[${number}]`, read);
+  const read = Array.from(parts, (part: unknown, number) => inPart(number, () => readPart(part)));
   // A getter of one part may have taken away the memory of an earlier part. From here on no getter runs.
-  read.forEach(requireMemory);
+  for (const [number, part] of read.entries()) inPart(number, () => requireMemory(part));
   return read;
 }
 
-function requireMemory({ positions, ids, count }: ReadPart, number: number): void {
+function requireMemory({ positions, ids, count }: ReadPart): void {
   if (positions.length !== 3 * count) {
-    throw inPart(number, positionsGone());
+    throw positionsGone();
   }
   if (ids.length !== count) {
-    throw new HprError("option", `parts[${number}].ids has been transferred away or made smaller`);
+    throw new HprError("option", "ids has been transferred away or made smaller");
   }
 }
 
-function readPart(part: unknown, number: number): ReadPart {
+function readPart(part: unknown): ReadPart {
   if (typeof part !== "object" || part === null) {
-    throw new HprError("option", `parts[${number}] must be { positions, ids }, got ${describe(part)}`);
+    throw new HprError("option", `a part must be { positions, ids }, got ${describe(part)}`);
   }
   const { positions, ids } = part as Partial<Record<"positions" | "ids", unknown>>;
   // Positions are read before the ids: only they can be an array-like object with getters.
-  const ownPositions = readPositionsOf(number, positions);
+  const ownPositions = readPositions(positions, 3);
   const ownIds = typedArrayType(ids) === "Uint32Array" ? plainView(ids as Uint32Array, Uint32Array) : undefined;
   if (ownIds === undefined) {
-    throw new HprError(
-      "option",
-      `parts[${number}].ids must be a Uint32Array, not transferred away, got ${describe(ids)}`,
-    );
+    throw new HprError("option", `ids must be a Uint32Array, not transferred away, got ${describe(ids)}`);
   }
   const count = ownIds.length;
   if (ownPositions.length !== 3 * count) {
-    const message = `expected 3 numbers for each of ${count} ids, got ${ownPositions.length}`;
-    throw inPart(number, new HprError("positions-length", message));
+    throw new HprError("positions-length", `expected 3 numbers for each of ${count} ids, got ${ownPositions.length}`);
   }
   return { positions: ownPositions, ids: ownIds, count };
-}
-
-function readPositionsOf(number: number, positions: unknown): Float32Array | Float64Array {
-  try {
-    return readPositions(positions, 3);
-  } catch (cause) {
-    throw cause instanceof HprError ? inPart(number, cause) : cause;
-  }
-}
-
-/** The same error, with the number of the part in its message. */
-function inPart(number: number, cause: HprError): HprError {
-  return new HprError(cause.code, `parts[${number}]: ${cause.message}`, { cause });
 }
 
 /** All parts as one. It has single precision only if every part has. */

@@ -1,5 +1,5 @@
 import type { Answers, Found } from "../query/answers.js";
-import { about, HprError } from "../base/errors.js";
+import { HprError, naming } from "../base/errors.js";
 import type { Bindings, Instance } from "../instance/instance.js";
 import { allocating } from "../base/memory.js";
 import type { Query, QueryKind } from "../query/queries.js";
@@ -179,11 +179,7 @@ function inImage(indices: Uint32Array<ArrayBuffer>, shown: Float32Array<ArrayBuf
 
 /** Asks the core. */
 export function perform<K extends QueryKind>(target: Target, query: Query<K>): Answers[K] {
-  try {
-    return performers[query.kind](target, query);
-  } catch (thrown) {
-    throw about(query.argument, thrown);
-  }
+  return naming(query.argument, () => performers[query.kind](target, query));
 }
 
 /** A view's settings as the core reads them. The core calls `memory` for its arrays, first for the indices. */

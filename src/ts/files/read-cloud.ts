@@ -8,7 +8,7 @@ import type { Values } from "../formats/numbers.js";
 import { readFile } from "../formats/read.js";
 import { indicesByStation } from "../formats/stations.js";
 import { type Binary, compile, compiledOnce, compileOwn, type InitInput } from "../instance/compile.js";
-import { givenOptions } from "../query/options.js";
+import { flag, givenOptions, listener } from "../query/options.js";
 import { abortError, BY_SIGNAL, readSignal } from "../worker/abort.js";
 import { type FileSource, refusal, sourceOf } from "./source-of.js";
 
@@ -94,21 +94,15 @@ export const compileE57 = compiledOnce(() =>
 
 function readSettings(options: unknown) {
   const given = givenOptions(options, ["signal", "onProgress", "columns", "damaged", "lazPerf", "e57"]);
-  const { onProgress, columns, damaged = false, lazPerf, e57 } = given;
-  if (onProgress !== undefined && typeof onProgress !== "function") {
-    throw new HprError("option", `onProgress must be a function, got ${describe(onProgress)}`);
-  }
-  if (typeof damaged !== "boolean") {
-    throw new HprError("option", `damaged must be true or false, got ${describe(damaged)}`);
-  }
+  const { columns, lazPerf, e57 } = given;
   if (lazPerf !== undefined && (typeof lazPerf !== "object" || lazPerf === null)) {
     throw new HprError("option", `lazPerf must be what createLazPerf() returns, got ${describe(lazPerf)}`);
   }
   return {
     signal: readSignal(given["signal"]),
-    onProgress: onProgress as ReadOptions["onProgress"],
+    onProgress: listener(given, "onProgress") as ReadOptions["onProgress"],
     chosen: columns === undefined ? undefined : chosenColumns(columns),
-    damaged,
+    damaged: flag(given, "damaged"),
     lazPerf: lazPerf === undefined ? undefined : () => Promise.resolve(lazPerf as LazPerf | Promise<LazPerf>),
     e57: e57 === undefined ? compileE57 : async () => await compile(e57 as InitInput, binary),
   };

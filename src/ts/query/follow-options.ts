@@ -1,4 +1,4 @@
-import { describe, HprError } from "../base/errors.js";
+import { describe, HprError, naming } from "../base/errors.js";
 import type { AnswerKind, Stage } from "../follow/refinement.js";
 import { givenOptions } from "./options.js";
 import { VIEW_OPTIONS, viewSettings, type VisibilityOptions } from "./view-options.js";
@@ -122,13 +122,11 @@ function usualSettle(view: VisibilityOptions, dimension: number): VisibilityOpti
 }
 
 function readSettle(settle: unknown): VisibilityOptions {
-  try {
+  return naming("settle", () => {
     const given = givenOptions(settle, VIEW_OPTIONS);
     viewSettings(given, 3);
     return given;
-  } catch (cause) {
-    throw cause instanceof HprError ? new HprError(cause.code, `settle: ${cause.message}`, { cause }) : cause;
-  }
+  });
 }
 
 function stageOf(options: VisibilityOptions): Stage<VisibilityOptions> {

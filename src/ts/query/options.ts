@@ -1,4 +1,4 @@
-import { about, describe, HprError, typeTag } from "../base/errors.js";
+import { describe, HprError, naming, typeTag } from "../base/errors.js";
 
 /** How the positions of a cloud are read. */
 export interface PointCloudOptions {
@@ -70,11 +70,7 @@ export function givenOptions(options: unknown, ...groups: readonly (readonly str
 
 /** The entries of an option that is an object. Errors name the option. */
 export function entriesOf(option: string, value: unknown, names: readonly string[]): Record<string, unknown> {
-  try {
-    return givenOptions(value, names);
-  } catch (cause) {
-    throw about(option, cause);
-  }
+  return naming(option, () => givenOptions(value, names));
 }
 
 /**
@@ -149,6 +145,15 @@ export function flag(given: Record<string, unknown>, name: string): boolean {
     throw new HprError("option", `${name} must be true or false, got ${describe(value)}`);
   }
   return value;
+}
+
+/** An option that is a function, if it was given. */
+export function listener(given: Record<string, unknown>, name: string): ((told: never) => void) | undefined {
+  const value = given[name];
+  if (value !== undefined && typeof value !== "function") {
+    throw new HprError("option", `${name} must be a function, got ${describe(value)}`);
+  }
+  return value as ((told: never) => void) | undefined;
 }
 
 /** An option that is one of some words. */

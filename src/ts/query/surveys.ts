@@ -80,15 +80,6 @@ export function readPlacing(given: GivenOptions): PlacementSettings {
   };
 }
 
-/** The option `onProgress`. */
-export function readListener(given: GivenOptions): ((fraction: number) => void) | undefined {
-  const { onProgress } = given;
-  if (onProgress !== undefined && typeof onProgress !== "function") {
-    throw new HprError("option", `onProgress must be a function, got ${describe(onProgress)}`);
-  }
-  return onProgress as ((fraction: number) => void) | undefined;
-}
-
 /** The numbers are copied. Their number is checked when the length of the cloud is known. */
 function readWeights(weights: unknown): Float64Array<ArrayBuffer> {
   const list = isNumberArray(weights)

@@ -1,6 +1,6 @@
 import { describe, HprError } from "../base/errors.js";
 import { type MergeOptions, mergeSettings } from "../cloud/merge.js";
-import { givenOptions, integer, pick } from "../query/options.js";
+import { flag, givenOptions, integer, listener, pick } from "../query/options.js";
 import { readViewpoint } from "../query/positions.js";
 import type { ResolvedInversion } from "../query/view-options.js";
 import { readSignal } from "../worker/abort.js";
@@ -84,21 +84,16 @@ const LONGEST_TIMEOUT = 2 ** 31 - 1;
 
 export function octreeSettings(options: unknown): OctreeSettings {
   const given = givenOptions(options, ["fetch", "lazPerf", "colors", "cache", "retries", "timeout"]);
-  const { fetch: fetcher = fetch, lazPerf, colors = false } = given;
-  if (typeof fetcher !== "function") {
-    throw new HprError("option", `fetch must be a function, got ${describe(fetcher)}`);
-  }
+  const { lazPerf } = given;
+  listener(given, "fetch");
   if (lazPerf !== undefined && (typeof lazPerf !== "object" || lazPerf === null)) {
     throw new HprError("option", `lazPerf must be what createLazPerf() returns, got ${describe(lazPerf)}`);
   }
-  if (typeof colors !== "boolean") {
-    throw new HprError("option", `colors must be true or false, got ${describe(colors)}`);
-  }
   return {
     // Called without an object: the platform's own fetch refuses any other.
-    fetch: (url, init) => (fetcher as Fetch)(url, init),
+    fetch: (url, init) => ((given["fetch"] ?? fetch) as Fetch)(url, init),
     lazPerf: lazPerf === undefined ? undefined : Promise.resolve(lazPerf as LazPerf | Promise<LazPerf>),
-    colors,
+    colors: flag(given, "colors"),
     cache: integer(given, "cache", 0, MOST_POINTS) ?? MANY,
     retries: integer(given, "retries", 0, MOST_RETRIES) ?? 3,
     timeout: integer(given, "timeout", 1, LONGEST_TIMEOUT) ?? 30_000,
@@ -107,17 +102,13 @@ export function octreeSettings(options: unknown): OctreeSettings {
 
 export function viewRequest(viewpoint: unknown, options: unknown): ViewRequest {
   const given = givenOptions(options, ["radius", "inversion", "budget", "requests", "signal", "onProgress"]);
-  const { onProgress = () => undefined } = given;
-  if (typeof onProgress !== "function") {
-    throw new HprError("option", `onProgress must be a function, got ${describe(onProgress)}`);
-  }
   return {
     viewpoint: readViewpoint(viewpoint, 3),
     merge: mergeOptions(pick(given, ["radius", "inversion"])),
     budget: integer(given, "budget", 1, MOST_POINTS) ?? MANY,
     requests: integer(given, "requests", 1, MOST_REQUESTS) ?? 6,
     signal: readSignal(given["signal"]),
-    onProgress: onProgress as ViewRequest["onProgress"],
+    onProgress: (listener(given, "onProgress") as ViewRequest["onProgress"] | undefined) ?? (() => undefined),
   };
 }
 

@@ -12,6 +12,7 @@ import {
   type CloudSize,
   flag,
   givenOptions,
+  integer,
   pick,
   type PointCloudOptions,
 } from "../query/options.js";
@@ -29,7 +30,7 @@ import { abortError, BY_SIGNAL, readSignal, untilAborted } from "./abort.js";
 import { type Progress, readProgress } from "./progress.js";
 import { RequestQueue } from "./request-queue.js";
 import { ViewStream, type ViewStreamOptions } from "./view-stream.js";
-import { defaultWorkers, readWorkers } from "./workers.js";
+import { defaultWorkers, MAX_WORKERS } from "./workers.js";
 
 /** How a cloud is sent to its worker. */
 export interface WorkerPointCloudOptions extends PointCloudOptions {
@@ -180,7 +181,7 @@ export class WorkerPointCloud {
     const transfer = flag(given, "transfer");
     const workers = readPlacement(given);
     const signal = readSignal(given["signal"]);
-    const progress = readProgress(given["onProgress"]);
+    const progress = readProgress(given);
     if (signal?.aborted === true) {
       throw abortError(BY_SIGNAL);
     }
@@ -309,7 +310,7 @@ export class WorkerPointCloud {
     const given = givenOptions(options, names, REQUEST_OPTIONS);
     const latest = flag(given, "latest") ? method : undefined;
     const signal = readSignal(given["signal"]);
-    const progress = readProgress(given["onProgress"]);
+    const progress = readProgress(given);
     const task = read(this.#settings.dimension, given, (fraction) => progress?.at(fraction));
     if (signal !== undefined) task.stopWhen(() => signal.aborted);
     await untilAborted(signal, this.#queue.ask({ kind: "survey", task }, { latest, signal, owner: this }));
@@ -367,7 +368,7 @@ function giveAway(
 
 /** Starts this cloud's own workers, or joins the shared one. */
 function readPlacement(given: Record<string, unknown>): number | "shared" | undefined {
-  const workers = readWorkers(given["workers"]);
+  const workers = integer(given, "workers", 1, MAX_WORKERS);
   if (!flag(given, "shared")) {
     return workers;
   }

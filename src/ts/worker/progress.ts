@@ -1,4 +1,4 @@
-import { describe, HprError } from "../base/errors.js";
+import { listener } from "../query/options.js";
 
 /** Tells a listener the progress of a task. The numbers only grow. */
 export class Progress {
@@ -21,12 +21,7 @@ export class Progress {
 }
 
 /** The option `onProgress`. */
-export function readProgress(listener: unknown): Progress | undefined {
-  if (listener === undefined) {
-    return undefined;
-  }
-  if (typeof listener !== "function") {
-    throw new HprError("option", `onProgress must be a function, got ${describe(listener)}`);
-  }
-  return new Progress(listener as (fraction: number) => void);
+export function readProgress(given: Record<string, unknown>): Progress | undefined {
+  const told = listener(given, "onProgress");
+  return told && new Progress(told as (fraction: number) => void);
 }

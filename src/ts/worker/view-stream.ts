@@ -1,10 +1,10 @@
 import { addTag } from "../base/tag.js";
-import { describe, HprError } from "../base/errors.js";
+import { HprError } from "../base/errors.js";
 import type { Visibility } from "../cloud/visibility.js";
 import { Follower, type Round } from "../follow/follower.js";
 import { type AnswerKind, type AskedStage, Refinement } from "../follow/refinement.js";
 import { FOLLOW_OPTIONS, type FollowOptions, followSettings, stagesFor } from "../query/follow-options.js";
-import { type CloudSize, givenOptions, pick } from "../query/options.js";
+import { type CloudSize, givenOptions, listener, pick } from "../query/options.js";
 import { isNear, type Place } from "../query/place.js";
 import { readViewpoint } from "../query/positions.js";
 import { VIEW_OPTIONS, viewSettings, type VisibilityOptions } from "../query/view-options.js";
@@ -84,11 +84,7 @@ export class ViewStream implements AsyncIterable<StreamedAnswer> {
     const given = givenOptions(options, VIEW_OPTIONS, FOLLOW_OPTIONS, ["onAnswer", "onError"]);
     const view = pick(given, VIEW_OPTIONS);
     viewSettings(view, cloud.dimension);
-    for (const name of ["onAnswer", "onError"]) {
-      if (given[name] !== undefined && typeof given[name] !== "function") {
-        throw new HprError("option", `${name} must be a function, got ${describe(given[name])}`);
-      }
-    }
+    for (const name of ["onAnswer", "onError"]) listener(given, name);
     this.#cloud = cloud;
     this.#options = given;
     this.#settings = followSettings(given, view, { dimension: cloud.dimension });

@@ -1,4 +1,3 @@
-import { describe, HprError } from "../base/errors.js";
 import { hasNodeModules, importNodeModule } from "../base/node.js";
 
 /** More workers would only wait for memory, and each of them holds the whole cloud. */
@@ -14,18 +13,6 @@ const CROSSOVER = 200_000;
 const MAX_DEFAULT = 4;
 /** The largest number of points by default, summed over the copies of all workers. */
 const MAX_DEFAULT_POINTS = 16_000_000;
-
-/** The option `workers`; `undefined` leaves the choice to {@link defaultWorkers}. */
-export function readWorkers(workers: unknown): number | undefined {
-  if (workers === undefined) {
-    return undefined;
-  }
-  const isCount = Number.isInteger(workers) && (workers as number) >= 1 && (workers as number) <= MAX_WORKERS;
-  if (!isCount) {
-    throw new HprError("option", `workers must be an integer from 1 to ${MAX_WORKERS}, got ${describe(workers)}`);
-  }
-  return workers as number;
-}
 
 /** The default number of workers for a cloud with this number of points: the number of cores, but at most `most`. */
 export async function defaultWorkers(points: number, most = MAX_DEFAULT): Promise<number> {
