@@ -13,22 +13,10 @@ viewpoint, and those on the convex hull of the flipped cloud and the viewpoint a
 
 from __future__ import annotations
 
-from ._native import (
-    Horizon,
-    HprError,
-    Panorama,
-    Placement,
-    PointCloud,
-    Share,
-    Visibility,
-    VisibilityMap,
-    merge_visible,
-    orient_normals,
-    share_visible,
-    transfer,
-)
-from .answers import Calibration, SeenBy, colmap_vis
+from ._native import Horizon, HprError, PointCloud, VisibilityMap, merge_visible, share_visible
+from .answers import Calibration, Panorama, Placement, SeenBy, Share, Visibility, colmap_vis, orient_normals
 from .cameras import CameraOfImage, read_cameras
+from .transfer import transfer
 
 __all__ = [
     "Calibration",

@@ -1,12 +1,11 @@
 from collections.abc import Callable, Iterable, Sequence
-from os import PathLike
 from typing import Any, Literal, Protocol, TypedDict
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from typing_extensions import NotRequired, Unpack
 
-from .answers import Calibration, SeenBy
+from .answers import Calibration, Panorama, Placement, SeenBy, Share, Visibility
 
 Rule = Literal["auto", "search", "opposite"]
 Inversion = Literal["spherical"] | dict[str, float | str]
@@ -96,73 +95,6 @@ class HprError(ValueError):
     """Bad input."""
 
     code: Literal["positions-length", "positions-type", "non-finite", "viewpoint", "radius", "option", "too-large", "load"]
-
-class Visibility:
-    """Which points are visible."""
-
-    @property
-    def indices(self) -> NDArray[np.uint32]:
-        """The indices of the visible points, ascending."""
-    @property
-    def scores(self) -> NDArray[np.float32] | None:
-        """A score from 0 to 1 for each index, if it was asked for."""
-    @property
-    def pixels(self) -> NDArray[np.float32] | None:
-        """Where each visible point is in the camera's image: (count, 2). None without a camera."""
-    @property
-    def depths(self) -> NDArray[np.float32] | None:
-        """The depth of each visible point along the optical axis. None without a camera."""
-    @property
-    def count(self) -> int: ...
-    @property
-    def radius(self) -> float:
-        """R of the flipping sphere; 0 where the inversion has none."""
-    @property
-    def exponent(self) -> float: ...
-    @property
-    def evaluations(self) -> int:
-        """How many hulls the choice of R took."""
-    @property
-    def exact(self) -> bool:
-        """False only for drafts and samples."""
-    @property
-    def inversion(self) -> str | dict[str, float | list[float]]:
-        """The inversion that was used, with numbers only."""
-    def mask(self) -> NDArray[np.bool_]:
-        """One truth value for each index: True where the point is visible."""
-    def __len__(self) -> int: ...
-
-class Panorama:
-    """What stands in each direction around a viewpoint. Row 0 is up, column 0 looks along +x."""
-
-    @property
-    def ranges(self) -> NDArray[np.float32]:
-        """The distance to the surface in each direction: (height, width). Infinity for the sky."""
-    @property
-    def indices(self) -> NDArray[np.uint32]:
-        """The visible point that is nearest by angle: (height, width). 2**32 - 1 for the sky."""
-    @property
-    def sky_view_factor(self) -> float:
-        """The share of the sky in the upper half of the sphere, weighted by the cosine from up: 0 to 1."""
-    @property
-    def solid_angle(self) -> float:
-        """How much of the sphere is surface, in steradians."""
-
-class Placement:
-    """Viewpoints that were chosen among candidates."""
-
-    @property
-    def chosen(self) -> list[int]:
-        """The numbers of the chosen candidates, in the order of their choice."""
-    @property
-    def gains(self) -> list[float]:
-        """The weight that each of them adds to those before it."""
-    @property
-    def seen(self) -> NDArray[np.uint32]:
-        """The indices that at least one of them sees, ascending."""
-    @property
-    def unseen(self) -> NDArray[np.uint32]:
-        """The indices that no candidate sees, ascending."""
 
 class VisibilityMap:
     """A map of directions around a viewpoint. It never hides a visible point, except a few with looks."""
@@ -307,22 +239,6 @@ class Horizon:
     def visible(self) -> NDArray[np.float64]:
         """The points that were added and are visible among them: (m, 3)."""
 
-def orient_normals(normals: ArrayLike, seen_by: SeenBy) -> NDArray[np.floating]:
-    """New normals, turned to the side that most of the cameras that see their points look at."""
-
-def transfer(
-    cloud: PointCloud,
-    cameras: Iterable[Camera],
-    images: Iterable[ArrayLike | str | PathLike[str]],
-    *,
-    merge: Literal["median", "mean", "vote", "best"] | None = "mean",
-    weights: Literal["distance", "angle", "score"] | None = None,
-    sampling: Literal["nearest", "bilinear"] | None = "nearest",
-    on_progress: Callable[[float], object] | None = None,
-    **options: Unpack[Options],
-) -> tuple[NDArray[np.float32], NDArray[np.uint32]]:
-    """From images to points: (values, seen). NaN where no camera sees a point."""
-
 def merge_visible(
     parts: Sequence[tuple[ArrayLike, ArrayLike]], viewpoint: ArrayLike, **options: Unpack[MergeOptions]
 ) -> NDArray[np.uint64]:
@@ -331,22 +247,6 @@ def merge_visible(
     Each part is (positions, ids): the visible points of one part of the cloud, with the caller's number of each.
     The answer is exact: visible(A + B) = visible(visible(A) + visible(B)).
     """
-
-class Share:
-    """What is known of one sector of a cloud. All lists ascend."""
-
-    @property
-    def visible(self) -> NDArray[np.uint32]:
-        """The indices of own points that are visible in the whole cloud. This is certain."""
-    @property
-    def undecided(self) -> NDArray[np.uint32]:
-        """The indices of own points that may be visible or hidden. The others are decided."""
-    @property
-    def needed(self) -> NDArray[np.uint32]:
-        """The indices of the given points, own ones first, that can still hide others."""
-    @property
-    def missing(self) -> NDArray[np.uint32]:
-        """The numbers of the boxes whose points may hide undecided points."""
 
 def share_visible(
     own: ArrayLike, others: ArrayLike, boxes: ArrayLike, viewpoint: ArrayLike, **options: Unpack[MergeOptions]

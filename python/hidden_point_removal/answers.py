@@ -1,13 +1,97 @@
-"""Answers of several parts."""
+"""Answers."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ._native import HprError, Visibility
+from .errors import refusal
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Visibility:
+    """Which points are visible.
+
+    indices: the indices of the visible points, ascending.
+    scores: a score from 0 to 1 for each index. None unless it was asked for.
+    radius: R of the flipping sphere; 0 where the inversion has none.
+    exponent: log10(R / farthest distance); 0 where the inversion has none.
+    evaluations: how many hulls the choice of R took.
+    exact: False only for drafts and samples.
+    inversion: the inversion that was used, with numbers only.
+    pixels: where each visible point is in the camera's image, x and y: shape (count, 2). None without a camera.
+    depths: the depth of each visible point along the optical axis. None without a camera.
+    """
+
+    indices: NDArray[np.uint32]
+    scores: NDArray[np.float32] | None
+    radius: float
+    exponent: float
+    evaluations: int
+    exact: bool
+    inversion: str | dict[str, float | list[float]]
+    pixels: NDArray[np.float32] | None
+    depths: NDArray[np.float32] | None
+    _length: int = field(repr=False)
+
+    @property
+    def count(self) -> int:
+        """How many points are visible."""
+        return len(self.indices)
+
+    def mask(self) -> NDArray[np.bool_]:
+        """One truth value for each index: True where the point is visible."""
+        mask = np.zeros(self._length, bool)
+        mask[self.indices] = True
+        return mask
+
+    def __len__(self) -> int:
+        return self.count
+
+    def __repr__(self) -> str:
+        return f"Visibility({self.count} of {self._length} points, radius={self.radius})"
+
+
+class Panorama(NamedTuple):
+    """What stands in each direction around a viewpoint. Row 0 is up, column 0 looks along +x."""
+
+    ranges: NDArray[np.float32]
+    """The distance to the surface in each direction: (height, width). Infinity for the sky."""
+    indices: NDArray[np.uint32]
+    """The visible point that is nearest by angle: (height, width). 2**32 - 1 for the sky."""
+    sky_view_factor: float
+    """The share of the sky in the upper half of the sphere, weighted by the cosine from up: 0 to 1."""
+    solid_angle: float
+    """How much of the sphere is surface, in steradians."""
+
+
+class Placement(NamedTuple):
+    """Viewpoints that were chosen among candidates."""
+
+    chosen: list[int]
+    """The numbers of the chosen candidates, in the order of their choice."""
+    gains: list[float]
+    """The weight that each of them adds to those before it."""
+    seen: NDArray[np.uint32]
+    """The indices that at least one of them sees, ascending."""
+    unseen: NDArray[np.uint32]
+    """The indices that no candidate sees, ascending."""
+
+
+class Share(NamedTuple):
+    """What is known of one sector of a cloud. All lists ascend."""
+
+    visible: NDArray[np.uint32]
+    """The indices of own points that are visible in the whole cloud. This is certain."""
+    undecided: NDArray[np.uint32]
+    """The indices of own points that may be visible or hidden. The others are decided."""
+    needed: NDArray[np.uint32]
+    """The indices of the given points, own ones first, that can still hide others."""
+    missing: NDArray[np.uint32]
+    """The numbers of the boxes whose points may hide undecided points."""
 
 
 class Calibration(NamedTuple):
@@ -39,21 +123,69 @@ class SeenBy(NamedTuple):
     """The direction of length 1 from the point to the camera: shape (entries, 3)."""
 
 
+def seen_by(length, views):
+    """The `SeenBy` of views of a cloud of so many indices: of each, the `Visibility` and the directions to the camera."""
+    order, offsets = by_point(length, [view.indices for view, _ in views])
+    counts = [view.count for view, _ in views]
+    cameras = np.repeat(np.arange(len(views), dtype=np.uint32), counts)[order]
+    pixels = joined([view.pixels for view, _ in views], (0, 2))[order]
+    return SeenBy(offsets, cameras, pixels, joined([towards for _, towards in views], (0, 3))[order])
+
+
+def by_point(length, lists):
+    """The order of the entries of several lists of indices by index, and where those of each index begin."""
+    indices = joined(lists, 0, np.uint32)
+    if len(indices) >= 2**32:
+        raise refusal("too-large", f"{len(indices)} entries exceed the limit of {2**32 - 1}")
+    offsets = np.zeros(length + 1, np.uint32)
+    np.cumsum(np.bincount(indices, minlength=length), out=offsets[1:])
+    return np.argsort(indices, kind="stable"), offsets
+
+
+def joined(arrays, empty, dtype=np.float32):
+    return np.concatenate(arrays) if arrays else np.empty(empty, dtype)
+
+
+def orient_normals(normals, seen_by):
+    """Turns normals towards the cameras that see their points: the side that most of them look at.
+
+    In a tie, the sum of the cosines decides. What no camera sees stays as it is, and so does a normal of zeros.
+
+    normals: array of float32 or float64, shape (n, 3), one for each index of the cloud.
+    seen_by: what `PointCloud.seen_by` answers.
+
+    Returns new normals of the same type. Raises `HprError` with the code "option".
+    """
+    offsets = offsets_of(seen_by, "orient_normals", "towards")
+    count = len(offsets) - 1
+    try:
+        normals = np.asarray(normals)
+    except ValueError:
+        normals = np.empty(0)
+    if normals.shape != (count, 3) or normals.dtype.kind not in "fiu":
+        raise refusal("option", f"normals must be numbers of the shape ({count}, 3), got {normals.dtype} of {normals.shape}")
+    normals = normals.astype(np.float32 if normals.dtype == np.float32 else np.float64)
+    rows = np.repeat(np.arange(count), np.diff(offsets))
+    x, y, z = (normals[rows, axis].astype(float) * seen_by.towards[:, axis] for axis in range(3))
+    cosines = x + y + z
+    votes, sums = (np.bincount(rows, weights, count) for weights in (np.sign(cosines), cosines))
+    return np.where(((votes < 0) | ((votes == 0) & (sums < 0)))[:, None], -normals, normals)
+
+
 def colmap_vis(seen_by):
     """What COLMAP's `fused.ply.vis` says: which cameras see each point. `seen_by` is the answer of `PointCloud.seen_by`.
 
     Returns bytes: little-endian, the number of points in 64 bits, then for each point how many cameras see it, and their
     numbers from 0, in 32 bits each. Raises `HprError` with the code "option".
     """
-    if not isinstance(seen_by, SeenBy) or list(seen_by.offsets[:1]) != [0] or seen_by.offsets[-1] != len(seen_by.cameras):
-        error = HprError("colmap_vis needs what seen_by of a cloud answers")
-        error.code = "option"
-        raise error
-    offsets = seen_by.offsets.astype(np.int64)
+    offsets = offsets_of(seen_by, "colmap_vis", "cameras")
     rows = np.insert(seen_by.cameras, offsets[:-1], np.diff(offsets))
     return np.array([len(offsets) - 1], "<u8").tobytes() + rows.astype("<u4").tobytes()
 
 
-def restored(*state):
-    """A `Visibility` that was pickled."""
-    return Visibility._restored(*state)
+def offsets_of(seen_by, asked, entries):
+    """The offsets of a `SeenBy`, which rise from 0 to the number of its entries."""
+    offsets = np.asarray(seen_by.offsets, np.int64) if isinstance(seen_by, SeenBy) else np.empty(0)
+    if not len(offsets) or offsets[0] != 0 or offsets[-1] != len(getattr(seen_by, entries)) or (np.diff(offsets) < 0).any():
+        raise refusal("option", f"{asked} needs what seen_by of a cloud answers")
+    return offsets

@@ -5,6 +5,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PySlice};
 
 use crate::failure::problem;
+use crate::options::shown;
 
 /// Positions: (n, 3), in single or double precision, row after row in memory. Of more columns, the first three count.
 #[derive(FromPyObject)]
@@ -105,18 +106,15 @@ fn rows<T: bytemuck::Pod>(numbers: &[T]) -> &[[T; 3]] {
     bytemuck::cast_slice(numbers)
 }
 
-/// Three finite or infinite numbers; the core checks whether they are finite.
+/// Three finite numbers.
 pub fn place(argument: &Bound<'_, PyAny>, name: &str) -> PyResult<[f64; 3]> {
-    argument
-        .extract::<Vec<f64>>()
-        .ok()
+    let numbers: Option<Vec<f64>> = argument.extract().ok();
+    numbers
         .and_then(|numbers| numbers.try_into().ok())
+        .filter(|place: &[f64; 3]| place.iter().all(|x| x.is_finite()))
         .ok_or_else(|| {
-            problem(
-                argument.py(),
-                "viewpoint",
-                format!("{name} must be 3 numbers"),
-            )
+            let message = format!("{name} must be 3 finite numbers, got {}", shown(argument));
+            problem(argument.py(), "viewpoint", message)
         })
 }
 

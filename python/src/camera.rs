@@ -26,6 +26,17 @@ pub fn cameras(given: &Bound<'_, PyAny>) -> PyResult<Vec<Camera>> {
     each(given, "cameras", read)
 }
 
+/// Each camera, with its fx, fy, cx, cy, width and height.
+#[pyfunction]
+#[pyo3(name = "_lenses")]
+pub fn lenses<'py>(given: &Bound<'py, PyAny>) -> PyResult<Vec<(Bound<'py, PyAny>, [f64; 6])>> {
+    each(given, "cameras", |entry, name| {
+        let own = read(entry, name)?;
+        let lens = [own.fx, own.fy, own.cx, own.cy, own.width, own.height];
+        Ok((entry.clone(), lens))
+    })
+}
+
 /// Reads a camera. The core checks its numbers.
 pub fn read(given: &Bound<'_, PyAny>, whose: &str) -> PyResult<Camera> {
     let py = given.py();
@@ -100,6 +111,9 @@ pub fn read(given: &Bound<'_, PyAny>, whose: &str) -> PyResult<Camera> {
         }
         camera.distortion[..list.len()].copy_from_slice(&list);
     }
+    camera
+        .check()
+        .map_err(|refused| wrong(refused.to_string()))?;
     Ok(camera)
 }
 

@@ -1,7 +1,9 @@
 //! The cloud. What it can be asked is in `views`, `surveys` and `surfaces`.
 
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use hidden_point_removal as core;
-use hidden_point_removal::{Camera, CameraView, NonFinite, Options, Seat, Threads};
+use hidden_point_removal::{Camera, NonFinite, Options, Seat, Threads};
 use numpy::{IntoPyArray, PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyType};
@@ -11,7 +13,7 @@ use crate::failure::{option, refused};
 use crate::options::{self, Asked, How};
 use crate::seen_by;
 use crate::shared::Shared;
-use crate::visibility::{Visibility, warn_if_inverted};
+use crate::visibility::{answer, camera_answer, warn_if_inverted};
 
 /// A point cloud, prepared for visibility queries.
 ///
@@ -28,6 +30,7 @@ use crate::visibility::{Visibility, warn_if_inverted};
 pub struct PointCloud {
     cloud: Shared<core::PointCloud>,
     non_finite: &'static str,
+    changes: AtomicUsize,
 }
 
 impl PointCloud {
@@ -48,22 +51,22 @@ impl PointCloud {
     }
 
     /// What each camera sees, by as many threads. Warns of poses that were probably given the wrong way round.
-    pub fn camera_views(
+    pub fn camera_views<'py>(
         &self,
-        py: Python<'_>,
+        py: Python<'py>,
         cameras: &[Camera],
         asked: &Asked,
         on_progress: Option<&Bound<'_, PyAny>>,
-    ) -> PyResult<Vec<CameraView>> {
+    ) -> PyResult<Vec<(Bound<'py, PyAny>, Bound<'py, PyAny>)>> {
         let mut views = Vec::new();
         self.in_groups(py, cameras, asked, on_progress, |cloud, group| {
             views.extend(seen_by::views(cloud, group, &asked.options)?);
             Ok(())
         })?;
         views
-            .iter()
-            .try_for_each(|view| warn_if_inverted(py, view.seems_inverted))?;
-        Ok(views)
+            .into_iter()
+            .map(|view| camera_answer(py, view))
+            .collect()
     }
 
     /// Warns of each camera whose pose was probably given the wrong way round.
@@ -78,7 +81,7 @@ impl PointCloud {
     }
 
     /// Asks about as many places at once as there are threads, and reports the progress between. The cloud is free then, so
-    /// the listener may use it.
+    /// the listener may ask it.
     pub fn in_groups<T: Sync>(
         &self,
         py: Python<'_>,
@@ -92,31 +95,39 @@ impl PointCloud {
         }
         let threads = asked.how.threads;
         let size = threads.unwrap_or(default_threads(self.__len__(py)?)).max(1);
-        let mut done = 0;
         // Without a place, the options are checked all the same.
-        let groups = places
+        let mut groups = places
             .chunks(size)
             .chain(places.is_empty().then_some(places));
+        let Some(listener) = on_progress else {
+            return self.ask(py, asked.how.clone(), |cloud| {
+                groups.try_for_each(|group| query(cloud, group))
+            });
+        };
+        let changes = || self.changes.load(Ordering::Relaxed);
+        let (mut done, before) = (0, changes());
         for group in groups {
             self.ask(py, asked.how.clone(), |cloud| query(cloud, group))?;
             done += group.len();
-            if let Some(listener) = on_progress.filter(|_| done > 0) {
+            if done > 0 {
                 listener.call1((done as f64 / places.len() as f64,))?;
+            }
+            if changes() != before {
+                return Err(option(py, "on_progress must not change the cloud".into()));
             }
         }
         Ok(())
     }
 
     /// Reads the options of a view, and asks for it.
-    pub fn view(
+    pub fn view<'py>(
         &self,
-        py: Python<'_>,
+        py: Python<'py>,
         given: Option<&Bound<'_, PyDict>>,
         query: impl Send + FnOnce(Threads<'_>, &Options) -> Result<core::Visibility, core::Error>,
-    ) -> PyResult<Visibility> {
+    ) -> PyResult<Bound<'py, PyAny>> {
         let Asked { options, how } = options::read(py, given)?;
-        let seen = self.ask(py, how, |cloud| query(cloud, &options))?;
-        Ok(Visibility::new(py, seen))
+        answer(py, self.ask(py, how, |cloud| query(cloud, &options))?)
     }
 }
 
@@ -157,6 +168,7 @@ impl PointCloud {
         Ok(Self {
             cloud: Shared::new(cloud),
             non_finite,
+            changes: AtomicUsize::new(0),
         })
     }
 
@@ -189,6 +201,7 @@ impl PointCloud {
     fn append(&self, py: Python<'_>, positions: &Bound<'_, PyAny>) -> PyResult<()> {
         let positions = Positions::read(positions, "positions")?;
         let points = positions.points();
+        self.changes.fetch_add(1, Ordering::Relaxed);
         self.cloud.change(py, |cloud| match points {
             Points::Single(points) => cloud.append(points),
             Points::Double(points) => cloud.append(points),
@@ -201,6 +214,7 @@ impl PointCloud {
     #[pyo3(signature = (indices))]
     fn remove(&self, py: Python<'_>, indices: &Bound<'_, PyAny>) -> PyResult<()> {
         let removed = read_indices(indices, "indices")?;
+        self.changes.fetch_add(1, Ordering::Relaxed);
         self.cloud.change(py, |cloud| cloud.remove(&removed))
     }
 

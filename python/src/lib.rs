@@ -4,23 +4,18 @@
 mod help;
 
 mod arrays;
-mod calibration;
 mod camera;
 mod cloud;
 mod failure;
 mod horizon;
 mod map;
-mod merge_values;
 mod options;
-mod panorama;
 mod parts;
-mod placement;
 mod seen_by;
 mod share;
 mod shared;
 mod surfaces;
 mod surveys;
-mod transfer;
 mod views;
 mod visibility;
 
@@ -31,14 +26,9 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("HprError", module.py().get_type::<failure::HprError>())?;
     module.add_class::<cloud::PointCloud>()?;
     module.add_class::<horizon::Horizon>()?;
-    module.add_class::<panorama::Panorama>()?;
-    module.add_class::<placement::Placement>()?;
-    module.add_class::<share::Share>()?;
-    module.add_class::<visibility::Visibility>()?;
     module.add_class::<map::VisibilityMap>()?;
     module.add_function(wrap_pyfunction!(parts::merge_visible, module)?)?;
-    module.add_function(wrap_pyfunction!(seen_by::orient_normals, module)?)?;
-    module.add_function(wrap_pyfunction!(transfer::transfer, module)?)?;
+    module.add_function(wrap_pyfunction!(camera::lenses, module)?)?;
     module.add_function(wrap_pyfunction!(share::share_visible, module)?)?;
     Ok(())
 }

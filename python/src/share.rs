@@ -1,43 +1,14 @@
 //! One sector of a cloud in parts.
 
 use hidden_point_removal as core;
-use numpy::{IntoPyArray, PyArray1, PyReadonlyArray3};
+use numpy::{IntoPyArray, PyReadonlyArray3};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::arrays::{Points, Positions, place};
 use crate::failure::{option, refused};
 use crate::options;
-
-/// What is known of one sector of a cloud. All lists ascend.
-#[pyclass(frozen, module = "hidden_point_removal")]
-pub struct Share {
-    /// The indices of own points that are visible in the whole cloud, for certain: uint32.
-    #[pyo3(get)]
-    visible: Py<PyArray1<u32>>,
-    /// The indices of own points that may be visible or hidden: uint32. The others are decided.
-    #[pyo3(get)]
-    undecided: Py<PyArray1<u32>>,
-    /// The indices of the given points, own ones first, that can still hide others: uint32.
-    #[pyo3(get)]
-    needed: Py<PyArray1<u32>>,
-    /// The numbers of the boxes whose points may hide undecided points: uint32.
-    #[pyo3(get)]
-    missing: Py<PyArray1<u32>>,
-}
-
-#[pymethods]
-impl Share {
-    fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
-        let count = |list: &Py<PyArray1<u32>>| list.bind(py).len();
-        Ok(format!(
-            "Share({} visible, {} undecided, {} missing)",
-            count(&self.visible)?,
-            count(&self.undecided)?,
-            count(&self.missing)?
-        ))
-    }
-}
+use crate::visibility::python;
 
 /// Which of the own points of a cloud are visible, where only a part of the cloud is at hand.
 ///
@@ -56,14 +27,14 @@ impl Share {
     signature = (own, others, boxes, viewpoint, **options),
     text_signature = "(own, others, boxes, viewpoint, *, radius=None, inversion=None)"
 )]
-pub fn share_visible(
-    py: Python<'_>,
+pub fn share_visible<'py>(
+    py: Python<'py>,
     own: &Bound<'_, PyAny>,
     others: &Bound<'_, PyAny>,
     boxes: &Bound<'_, PyAny>,
     viewpoint: &Bound<'_, PyAny>,
     options: Option<&Bound<'_, PyDict>>,
-) -> PyResult<Share> {
+) -> PyResult<Bound<'py, PyAny>> {
     let viewpoint = place(viewpoint, "viewpoint")?;
     let options = options::read_without_cloud(py, options)?;
     let own = Positions::read(own, "own")?;
@@ -84,13 +55,10 @@ pub fn share_visible(
         ),
     });
     let share = share.map_err(|error| refused(py, error))?;
-    let list = |numbers: &[u32]| numbers.to_vec().into_pyarray(py).unbind();
-    Ok(Share {
-        visible: list(share.visible()),
-        undecided: list(share.undecided()),
-        needed: list(share.needed()),
-        missing: list(share.missing()),
-    })
+    let list = |numbers: &[u32]| numbers.to_vec().into_pyarray(py);
+    let [visible, undecided] = [share.visible(), share.undecided()].map(list);
+    let [needed, missing] = [share.needed(), share.missing()].map(list);
+    python(py, "Share")?.call1((visible, undecided, needed, missing))
 }
 
 /// Boxes: (n, 2, 3), the least and the largest coordinates of each.

@@ -10,7 +10,7 @@ use crate::cloud::PointCloud;
 use crate::failure::option;
 use crate::map::{self, VisibilityMap};
 use crate::options::{self, Asked};
-use crate::visibility::Visibility;
+use crate::visibility::answer;
 
 #[pymethods]
 impl PointCloud {
@@ -65,7 +65,7 @@ impl PointCloud {
         viewpoint: &Bound<'_, PyAny>,
         #[pyo3(from_py_with = options::given)] max_edge: Option<f64>,
         options: Option<&Bound<'_, PyDict>>,
-    ) -> PyResult<(Visibility, Bound<'py, PyArray2<u32>>)> {
+    ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyArray2<u32>>)> {
         let viewpoint = place(viewpoint, "viewpoint")?;
         let Asked { options, how } = options::read(py, options)?;
         let made = self.ask(py, how, |cloud| {
@@ -73,10 +73,7 @@ impl PointCloud {
         })?;
         let count = made.triangles.len();
         let triangles = made.triangles.into_flattened().into_pyarray(py);
-        Ok((
-            Visibility::new(py, made.visibility),
-            triangles.reshape([count, 3])?,
-        ))
+        Ok((answer(py, made.visibility)?, triangles.reshape([count, 3])?))
     }
 
     #[doc = asks!("illuminate($self, lights, triangles=None, smoothing=1, ambient=0.0, *")]

@@ -1,19 +1,16 @@
 //! Questions to a cloud about many viewpoints, and what is seen all around one.
 
 use hidden_point_removal::{Choice, PanoramaOptions, Placing};
-use numpy::{IntoPyArray, PyArray1};
+use numpy::{IntoPyArray, PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::arrays::{numbers, place};
-use crate::calibration;
 use crate::camera;
 use crate::cloud::PointCloud;
 use crate::failure::{option, refused};
 use crate::options::{self, Asked, How, refuse_draft_and_scores};
-use crate::panorama::Panorama;
-use crate::placement::Placement;
-use crate::seen_by;
+use crate::visibility::python;
 
 #[pymethods]
 impl PointCloud {
@@ -22,7 +19,8 @@ impl PointCloud {
     ///
     /// viewpoints: list of 3 numbers each, or array of shape (m, 3). A camera may stand in the place of a viewpoint; it
     ///     sees only what is in its image.
-    /// on_progress: is called with the share that is done. An exception in it ends the question.
+    /// on_progress: is called with the share that is done. It must not change the cloud. An exception in it
+    ///     ends the question.
     /// Options: those of `visible_from`. Not with draft and scores.
     /// Returns an array of uint32, one number for each index.
     #[pyo3(signature = (viewpoints, *, on_progress=None, **options), text_signature = None)]
@@ -38,7 +36,6 @@ impl PointCloud {
         let mut counts = Vec::new();
         self.in_groups(py, &viewpoints, &asked, on_progress, |cloud, group| {
             let more = cloud.coverage(group, &asked.options)?;
-            // A listener may have appended points.
             counts.resize(more.len(), 0);
             (counts.iter_mut().zip(more)).for_each(|(count, more): (&mut u32, u32)| *count += more);
             Ok(())
@@ -54,7 +51,8 @@ impl PointCloud {
     /// count: int. At most so many are chosen.
     /// share: float, above 0 and at most 1. No more are chosen than see this share of the weight that some candidate sees.
     /// weights: n numbers of at least 0, one for each index. Default 1 each.
-    /// on_progress: is called with the share of the candidates that is done. An exception in it ends the question.
+    /// on_progress: is called with the share of the candidates that is done. It must not change the cloud. An exception
+    ///     in it ends the question.
     /// Options: those of `visible_from`. Not with draft and scores.
     /// Returns a `Placement`.
     #[pyo3(
@@ -62,16 +60,16 @@ impl PointCloud {
         text_signature = None
     )]
     #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
-    fn place_viewpoints(
+    fn place_viewpoints<'py>(
         &self,
-        py: Python<'_>,
+        py: Python<'py>,
         candidates: &Bound<'_, PyAny>,
         count: Option<&Bound<'_, PyAny>>,
         share: Option<&Bound<'_, PyAny>>,
         weights: Option<&Bound<'_, PyAny>>,
         on_progress: Option<&Bound<'_, PyAny>>,
         options: Option<&Bound<'_, PyDict>>,
-    ) -> PyResult<Placement> {
+    ) -> PyResult<Bound<'py, PyAny>> {
         let candidates = camera::seats(candidates, "candidates")?;
         let asked = options::read(py, options)?;
         let weights = weights.map(|given| numbers(given, "weights")).transpose()?;
@@ -93,7 +91,8 @@ impl PointCloud {
             choice.choose(cloud, &candidates, &asked.options)
         })?;
         self.warn_of_inverted(py, &candidates)?;
-        Ok(Placement::new(py, placed))
+        let (seen, unseen) = (placed.seen.into_pyarray(py), placed.unseen.into_pyarray(py));
+        python(py, "Placement")?.call1((placed.chosen, placed.gains, seen, unseen))
     }
 
     #[doc = asks!("panorama($self, viewpoint, width, height, up=(0, 0, 1), *")]
@@ -106,15 +105,15 @@ impl PointCloud {
     /// Options: those of `visible_from`. Not with draft and scores.
     /// Returns a `Panorama`.
     #[pyo3(signature = (viewpoint, width, height, up=None, **options), text_signature = None)]
-    fn panorama(
+    fn panorama<'py>(
         &self,
-        py: Python<'_>,
+        py: Python<'py>,
         viewpoint: &Bound<'_, PyAny>,
         width: &Bound<'_, PyAny>,
         height: &Bound<'_, PyAny>,
         up: Option<&Bound<'_, PyAny>>,
         options: Option<&Bound<'_, PyDict>>,
-    ) -> PyResult<Panorama> {
+    ) -> PyResult<Bound<'py, PyAny>> {
         let viewpoint = place(viewpoint, "viewpoint")?;
         let width = options::count(py, "width", width)?;
         let size = PanoramaOptions {
@@ -124,7 +123,13 @@ impl PointCloud {
         };
         let Asked { options, how } = options::read(py, options)?;
         let made = self.ask(py, how, |cloud| cloud.panorama(viewpoint, &options, &size))?;
-        Panorama::new(py, made, width)
+        let shape = [size.height, width];
+        python(py, "Panorama")?.call1((
+            made.ranges.into_pyarray(py).reshape(shape)?,
+            made.indices.into_pyarray(py).reshape(shape)?,
+            made.sky_view_factor,
+            made.solid_angle,
+        ))
     }
 
     /// The radius that a rule chooses for a viewpoint.
@@ -156,7 +161,8 @@ impl PointCloud {
     /// Which cameras see each point, and where.
     ///
     /// cameras: list of cameras, as for `visible_from_camera`.
-    /// on_progress: is called with the share that is done. An exception in it ends the question.
+    /// on_progress: is called with the share that is done. It must not change the cloud. An exception in it
+    ///     ends the question.
     /// Options: those of `visible_from`. Not with draft and scores.
     /// Returns a `SeenBy`: `offsets`, `cameras`, `pixels` and `towards`, the rows of a sparse matrix.
     #[pyo3(signature = (cameras, *, on_progress=None, **options), text_signature = None)]
@@ -171,7 +177,20 @@ impl PointCloud {
         let asked = options::read(py, options)?;
         refuse_draft_and_scores(py, &asked.options, "seen_by")?;
         let views = self.camera_views(py, &cameras, &asked, on_progress)?;
-        seen_by::rows(py, self.__len__(py)?, &views)
+        python(py, "seen_by")?.call1((self.__len__(py)?, views))
+    }
+
+    /// The answer of each camera, and the direction from each visible point to it.
+    #[pyo3(signature = (cameras, on_progress=None, **options))]
+    fn _camera_views<'py>(
+        &self,
+        py: Python<'py>,
+        cameras: &Bound<'_, PyAny>,
+        on_progress: Option<&Bound<'_, PyAny>>,
+        options: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<Vec<(Bound<'py, PyAny>, Bound<'py, PyAny>)>> {
+        let asked = options::read(py, options)?;
+        self.camera_views(py, &camera::cameras(cameras)?, &asked, on_progress)
     }
 
     #[doc = asks!("calibrate($self, stations, *")]
@@ -184,23 +203,12 @@ impl PointCloud {
     /// to ask with. Takes about ten views for each station.
     #[pyo3(signature = (stations, **options), text_signature = None)]
     fn calibrate<'py>(
-        &self,
-        py: Python<'py>,
-        stations: &Bound<'_, PyAny>,
+        slf: &Bound<'py, Self>,
+        stations: &Bound<'py, PyAny>,
         options: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let stations = calibration::stations(stations, self.__len__(py)?)?;
-        let given = options.map_or_else(|| Ok(PyDict::new(py)), |options| options.copy())?;
-        if given.get_item("looks")?.is_none_or(|looks| looks.is_none()) {
-            given.set_item("looks", 3)?;
-        }
-        let Asked { options, how } = options::read(py, Some(&given))?;
-        let spacing = self.spacing(py)?;
-        let found = self.ask(py, how, |cloud| {
-            calibration::calibrated(&cloud, spacing, &stations, &options)
-        })?;
-        given.set_item("thickness", found.thickness)?;
-        let answers = py.import("hidden_point_removal.answers")?;
-        (answers.getattr("Calibration")?).call1((found.thickness, found.recall, given))
+        let given = options.map_or_else(|| PyDict::new(slf.py()), Clone::clone);
+        let module = slf.py().import("hidden_point_removal.calibration")?;
+        module.call_method1("calibrated", (slf, stations, given))
     }
 }

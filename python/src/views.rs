@@ -8,7 +8,7 @@ use crate::arrays::{Points, Positions, place};
 use crate::camera;
 use crate::cloud::PointCloud;
 use crate::options::{self, Asked};
-use crate::visibility::Visibility;
+use crate::visibility::camera_answer;
 
 #[pymethods]
 impl PointCloud {
@@ -39,12 +39,12 @@ impl PointCloud {
     /// An option that is None counts as left out. Returns a `Visibility`. Raises `HprError` with the code "viewpoint",
     /// "radius", "option" or "too-large".
     #[pyo3(signature = (viewpoint, **options), text_signature = None)]
-    fn visible_from(
+    fn visible_from<'py>(
         &self,
-        py: Python<'_>,
+        py: Python<'py>,
         viewpoint: &Bound<'_, PyAny>,
         options: Option<&Bound<'_, PyDict>>,
-    ) -> PyResult<Visibility> {
+    ) -> PyResult<Bound<'py, PyAny>> {
         let viewpoint = place(viewpoint, "viewpoint")?;
         self.view(py, options, |cloud, options| {
             cloud.visible_from(viewpoint, options)
@@ -58,12 +58,12 @@ impl PointCloud {
     /// Options: those of `visible_from`. Not with "search", "opposite", {"power": float} and a distance in within.
     /// Returns a `Visibility`.
     #[pyo3(signature = (direction, **options), text_signature = None)]
-    fn visible_from_direction(
+    fn visible_from_direction<'py>(
         &self,
-        py: Python<'_>,
+        py: Python<'py>,
         direction: &Bound<'_, PyAny>,
         options: Option<&Bound<'_, PyDict>>,
-    ) -> PyResult<Visibility> {
+    ) -> PyResult<Bound<'py, PyAny>> {
         let direction = place(direction, "direction")?;
         self.view(py, options, |cloud, options| {
             cloud.visible_from_direction(direction, options)
@@ -78,12 +78,12 @@ impl PointCloud {
     /// Options: those of `visible_from`. Not with scores.
     /// Returns a `Visibility` with the largest radius.
     #[pyo3(signature = (viewpoints, **options), text_signature = None)]
-    fn visible_from_any(
+    fn visible_from_any<'py>(
         &self,
-        py: Python<'_>,
+        py: Python<'py>,
         viewpoints: &Bound<'_, PyAny>,
         options: Option<&Bound<'_, PyDict>>,
-    ) -> PyResult<Visibility> {
+    ) -> PyResult<Bound<'py, PyAny>> {
         let viewpoints = camera::seats(viewpoints, "viewpoints")?;
         let seen = self.view(py, options, |cloud, options| {
             cloud.visible_from_any(&viewpoints, options)
@@ -101,13 +101,13 @@ impl PointCloud {
     /// Options: those of `visible_from`. Not with scores.
     /// Returns a `Visibility` with the largest radius.
     #[pyo3(signature = (k, viewpoints, **options), text_signature = None)]
-    fn visible_from_at_least(
+    fn visible_from_at_least<'py>(
         &self,
-        py: Python<'_>,
+        py: Python<'py>,
         k: &Bound<'_, PyAny>,
         viewpoints: &Bound<'_, PyAny>,
         options: Option<&Bound<'_, PyDict>>,
-    ) -> PyResult<Visibility> {
+    ) -> PyResult<Bound<'py, PyAny>> {
         let k = options::count(py, "k", k)?;
         let viewpoints = camera::seats(viewpoints, "viewpoints")?;
         let seen = self.view(py, options, |cloud, options| {
@@ -130,18 +130,18 @@ impl PointCloud {
     /// Options: those of `visible_from`.
     /// Returns a `Visibility` with `pixels` and `depths`. A camera that is no such dict raises the code "viewpoint".
     #[pyo3(signature = (camera, **options), text_signature = None)]
-    fn visible_from_camera(
+    fn visible_from_camera<'py>(
         &self,
-        py: Python<'_>,
+        py: Python<'py>,
         camera: &Bound<'_, PyAny>,
         options: Option<&Bound<'_, PyDict>>,
-    ) -> PyResult<Visibility> {
+    ) -> PyResult<Bound<'py, PyAny>> {
         let camera = camera::read(camera, "camera")?;
         let Asked { options, how } = options::read(py, options)?;
         let view = self.ask(py, how, |cloud| {
             cloud.visible_from_camera(&camera, &options)
         })?;
-        Visibility::of_camera(py, view)
+        Ok(camera_answer(py, view)?.0)
     }
 
     #[doc = asks!("sees($self, viewpoint, positions, *")]

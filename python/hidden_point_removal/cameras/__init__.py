@@ -6,7 +6,7 @@ import os
 import re
 from pathlib import Path
 
-from .._native import HprError
+from ..errors import refusal
 from .colmap import Bytes, Lines, read_images, read_lenses
 from .files import CameraOfImage, Problem, is_number, looks_binary
 from .others import read_json, read_kitti, read_opencv
@@ -32,19 +32,13 @@ def read_cameras(source, width=None, height=None):
     """
     size = (width, height)
     if size != (None, None) and not all(is_number(value) and value > 0 for value in size):
-        raise _error("option", f"width and height must both be finite and positive numbers, got {width!r} and {height!r}")
+        raise refusal("option", f"width and height must both be finite and positive numbers, got {width!r} and {height!r}")
     first, *second = _files(source)
     if not second:
         return _reading(first, _one, size)
     reader = Lines if first.suffix.lower() == ".txt" else Bytes
     lenses = _reading(first, lambda data: read_lenses(reader(data)))
     return _reading(second[0], lambda data: read_images(reader(data), lenses))
-
-
-def _error(code, message):
-    error = HprError(message)
-    error.code = code
-    return error
 
 
 def _files(source):
@@ -55,25 +49,25 @@ def _files(source):
             return paths
         paths = list(paths[0].iterdir()) if len(paths) == 1 else paths
     except TypeError:
-        raise _error("option", f"source must be a path, or the paths of COLMAP's two files, got {source!r}") from None
+        raise refusal("option", f"source must be a path, or the paths of COLMAP's two files, got {source!r}") from None
     except OSError as problem:
-        raise _error("load", f"{source} cannot be read: {problem.strerror}") from problem
+        raise refusal("load", f"{source} cannot be read: {problem.strerror}") from problem
     by_name = {path.name.lower(): path for path in paths}
     for names in FOLDERS:
         if by_name.keys() >= set(names):
             return [by_name[name] for name in names]
     if len(paths) == 1:
         return paths
-    raise _error("load", f"{source} must hold cameras and images (.bin or .txt), transforms.json or calib.txt")
+    raise refusal("load", f"{source} must hold cameras and images (.bin or .txt), transforms.json or calib.txt")
 
 
 def _reading(path, read, *more):
     try:
         return read(path.read_bytes(), *more)
     except Problem as problem:
-        raise _error("load", f"{path} cannot be read: {problem}") from problem
+        raise refusal("load", f"{path} cannot be read: {problem}") from problem
     except (OSError, ValueError) as problem:
-        raise _error("load", f"{path} cannot be read: {getattr(problem, 'strerror', None) or problem}") from problem
+        raise refusal("load", f"{path} cannot be read: {getattr(problem, 'strerror', None) or problem}") from problem
 
 
 def _one(data, size):

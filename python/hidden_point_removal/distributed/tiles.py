@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from hidden_point_removal import HprError
+from hidden_point_removal.errors import refusal
 
 #: The suffixes of files that can be read, longest first.
 SUFFIXES = (".copc.laz", ".parquet", ".laz", ".las", ".npy")
@@ -17,9 +17,7 @@ SUFFIXES = (".copc.laz", ".parquet", ".laz", ".las", ".npy")
 
 def refuse(code, message):
     """Raises an `HprError` with a code."""
-    error = HprError(message)
-    error.code = code
-    raise error
+    raise refusal(code, message)
 
 
 def broken(path, why):
