@@ -3,7 +3,7 @@ import { defineConfig } from "vitest/config";
 export default defineConfig({
   test: {
     // Machines differ in speed: these limits only end what hangs.
-    testTimeout: 180_000,
+    testTimeout: 360_000,
     hookTimeout: 300_000,
     expect: { poll: { timeout: 60_000 } },
     projects: [

@@ -1,6 +1,6 @@
 // The layer for deck.gl: its filter values, and the points that are drawn and picked.
 import type { Page } from "playwright-core";
-import { afterAll, beforeAll, beforeEach, expect, it } from "vitest";
+import { afterAll, afterEach, beforeAll, beforeEach, expect, it } from "vitest";
 import { newPage } from "./browser.js";
 import { builtPage } from "./built.js";
 import type { DeckPage } from "./deck/page.js";
@@ -14,6 +14,9 @@ beforeAll(async () => {
   path = await builtPage("deck");
   site = await serveModules({});
 });
+
+// A page that stays goes on drawing.
+afterEach(() => page.context().close());
 
 afterAll(() => {
   site.close();

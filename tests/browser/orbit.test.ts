@@ -89,16 +89,19 @@ async function grasp(page: Page): Promise<(step: number) => Promise<void>> {
 /** The frames at rest at some steps of a drag, after a map was drawn there. */
 async function restedAt(page: Page, steps: readonly number[], move: (step: number) => Promise<void>): Promise<Frame[]> {
   const frames: Frame[] = [];
+  const reach = async (step: number) => {
+    await move(step);
+    await settled(page);
+    return (await taken(page)).at(-1);
+  };
+  await settled(page);
   for (const step of steps) {
-    let frame: Frame;
-    do {
-      // Where a frame takes long, the final answer may come before the map's is drawn. Then the camera comes once more.
-      for (const place of [step - EVERY / 2, step]) {
-        await move(place);
-        await settled(page);
-      }
-      frame = (await taken(page)).at(-1)!;
-    } while (frame.missing < 0);
+    let frame = await reach(step);
+    // Where a frame takes long, the final answer may come before the map's is drawn. Then the camera comes once more.
+    while (frame === undefined || frame.missing < 0) {
+      await reach(step - EVERY / 2);
+      frame = await reach(step);
+    }
     frames.push(frame);
   }
   return frames;

@@ -1,6 +1,6 @@
 // The hook and the component for React, in a canvas that draws on demand.
 import type { Page } from "playwright-core";
-import { afterAll, beforeAll, beforeEach, expect, it } from "vitest";
+import { afterAll, afterEach, beforeAll, beforeEach, expect, it } from "vitest";
 import { newPage } from "./browser.js";
 import { builtPage } from "./built.js";
 import { serveModules } from "./modules.js";
@@ -15,6 +15,9 @@ beforeAll(async () => {
   path = await builtPage("react");
   site = await serveModules({});
 });
+
+// A page that stays goes on drawing.
+afterEach(() => page.context().close());
 
 afterAll(() => {
   site.close();

@@ -88,7 +88,7 @@ describe("commands", () => {
     }
   });
 
-  test("the Rust example filters a file", { timeout: 180_000 }, () => {
+  test("the Rust example filters a file", () => {
     const command = commands.find((line) => line.startsWith("cargo run"));
     const [, example = "", args = ""] = /--example (\w+) -- (.*) >/.exec(command ?? "") ?? [];
     writeFileSync(join(scratch, "cloud.xyz"), "0 0 1 a\n0 0 2 b\n1 0 0 c\n");
