@@ -73,9 +73,7 @@ export class Inquiry {
   readonly #another: () => Promise<WorkerCloud>;
   readonly #size: number;
   /** How far the answers for the viewpoint have come: see `stagesOf`. */
-  readonly #refinement = new Refinement<ViewQuestion>(() => {
-    this.#viewFollower.follow();
-  });
+  readonly #refinement = new Refinement<ViewQuestion>(() => this.#viewFollower.follow());
   /** The question whose answer is final. */
   #wanted: ViewQuestion | null = null;
   /** The question that was answered last. */
@@ -85,9 +83,7 @@ export class Inquiry {
   readonly #viewFollower = new Follower(
     {
       next: () => (this.#isLost ? this.#remaking() : this.#viewRound()),
-      refused: (error) => {
-        this.onError(error);
-      },
+      refused: (error) => this.onError(error),
       lost: (isComingBack) => {
         this.#isLost = true;
         if (isComingBack) this.#refinement.begin(this.#stages);

@@ -7,9 +7,7 @@ const TURN = 50;
 /** The number of rays after which the worker reads the clock. */
 const RAYS = 64;
 
-const post = (reply: TruthReply) => {
-  self.postMessage(reply);
-};
+const post = (reply: TruthReply) => self.postMessage(reply);
 
 self.onmessage = async ({ data: { surface, positions, viewpoint } }: MessageEvent<TruthQuestion>) => {
   try {

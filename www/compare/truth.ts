@@ -37,9 +37,7 @@ export async function traced(
   const worker = new Worker(new URL("./truth-worker.ts", import.meta.url), { type: "module" });
   try {
     return await new Promise((resolve, reject) => {
-      signal.addEventListener("abort", () => {
-        reject(signal.reason as DOMException);
-      });
+      signal.addEventListener("abort", () => reject(signal.reason as DOMException));
       worker.onmessage = ({ data: reply }: MessageEvent<TruthReply>) => {
         if (reply.kind === "progress") onProgress(reply.share);
         else if (reply.kind === "seen") resolve(reply.seen);

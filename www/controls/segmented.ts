@@ -6,11 +6,7 @@ export class Segmented<Value extends string = string> {
 
   constructor(id: string, onChange: (value: Value) => void) {
     this.#inputs = [...byId(id).querySelectorAll("input")];
-    for (const input of this.#inputs) {
-      input.addEventListener("change", () => {
-        onChange(input.value as Value);
-      });
-    }
+    for (const input of this.#inputs) input.addEventListener("change", () => onChange(input.value as Value));
   }
 
   get value(): Value | null {

@@ -83,9 +83,7 @@ export class Frame {
 
   announce(sentence: string): void {
     clearTimeout(this.#announcing);
-    this.#announcing = setTimeout(() => {
-      this.#live.textContent = sentence;
-    }, SETTLED);
+    this.#announcing = setTimeout(() => (this.#live.textContent = sentence), SETTLED);
   }
 
   /** Takes the sentences for screen readers away. */

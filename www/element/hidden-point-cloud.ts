@@ -175,9 +175,7 @@ class HiddenPointCloud extends Base implements Own {
     }
     const showing = new Showing(this.#frame, canvas, reading, this.#listener());
     const pointing = new Pointing(showing.canvas, showing.viewer);
-    pointing.onPick((point) => {
-      this.#emit("pick", point);
-    });
+    pointing.onPick((point) => this.#emit("pick", point));
     this.#showing = { showing, pointing };
     return showing;
   }
@@ -201,18 +199,10 @@ class HiddenPointCloud extends Base implements Own {
         this.#emit("load", { total, notes });
         this.#ready.resolve();
       },
-      failed: (problem) => {
-        this.#fail(problem);
-      },
-      answered: (answer) => {
-        this.#answer(answer);
-      },
-      progressed: (fraction) => {
-        this.#emit("progress", { fraction });
-      },
-      refused: (problem) => {
-        this.#emit("error", { error: problem });
-      },
+      failed: (problem) => this.#fail(problem),
+      answered: (answer) => this.#answer(answer),
+      progressed: (fraction) => this.#emit("progress", { fraction }),
+      refused: (problem) => this.#emit("error", { error: problem }),
       moved: ({ hidden, freeze }) => {
         if (hidden !== (valueOf(this, "hidden-points") ?? SETTINGS.hidden.usual)) {
           this.setAttribute("hidden-points", hidden);

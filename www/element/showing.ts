@@ -59,12 +59,8 @@ export class Showing {
       ...this.#ready?.usual,
       ...this.#reading.settings,
     }));
-    this.viewer.onAnswer = (answer) => {
-      this.#hear(answer);
-    };
-    this.viewer.onError = (error) => {
-      tell.refused(problemOf(error, "The view"));
-    };
+    this.viewer.onAnswer = (answer) => this.#hear(answer);
+    this.viewer.onError = (error) => tell.refused(problemOf(error, "The view"));
     this.viewer.stage.onLost = () => {
       const problem = new Problem(
         "webgl",
@@ -73,9 +69,7 @@ export class Showing {
       frame.sayError(problem.message);
       tell.refused(problem);
     };
-    this.viewer.stage.onRestored = () => {
-      frame.sayError(null);
-    };
+    this.viewer.stage.onRestored = () => frame.sayError(null);
     this.#store.follow((now) => {
       if (this.#ready && !this.#obeying) tell.moved(now);
     });

@@ -81,12 +81,8 @@ class Lesson {
         this.#slider.valueAsNumber = thinned.automatic;
         void this.#flip();
       },
-      again: () => {
-        this.#fly();
-      },
-      close: () => {
-        dialog.close();
-      },
+      again: () => this.#fly(),
+      close: () => dialog.close(),
     };
     for (const button of dialog.querySelectorAll<HTMLButtonElement>("[data-do]")) {
       button.addEventListener("click", acts[button.dataset["do"]!]!);
@@ -166,9 +162,7 @@ class Lesson {
 
   readonly #redraw = () => {
     cancelAnimationFrame(this.#frame);
-    this.#frame = requestAnimationFrame(() => {
-      this.#draw();
-    });
+    this.#frame = requestAnimationFrame(() => this.#draw());
   };
 
   #draw(): void {
@@ -199,9 +193,7 @@ class Lesson {
   }
 
   #bindDrag(canvas: HTMLCanvasElement): void {
-    canvas.addEventListener("pointerdown", (event) => {
-      canvas.setPointerCapture(event.pointerId);
-    });
+    canvas.addEventListener("pointerdown", (event) => canvas.setPointerCapture(event.pointerId));
     canvas.addEventListener("pointermove", (event) => {
       if (!canvas.hasPointerCapture(event.pointerId)) return;
       const { right, up, out } = this.#turn;

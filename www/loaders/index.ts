@@ -42,9 +42,7 @@ export async function loadCloud(
   ahead = null;
   const loading = begun ?? begin(request);
   return new Promise<PreparedCloud>((resolve, reject) => {
-    signal.addEventListener("abort", () => {
-      reject(new DOMException("Another cloud was opened.", "AbortError"));
-    });
+    signal.addEventListener("abort", () => reject(new DOMException("Another cloud was opened.", "AbortError")));
     if (loading instanceof Promise) {
       loading.then(resolve, reject);
       return;
@@ -70,9 +68,7 @@ class Loading {
     const { worker, end } = startWorker();
     this.end = end;
     worker.onmessage = ({ data: reply }: MessageEvent<LoadReply>) => {
-      this.#tell(() => {
-        this.#onReply!(reply);
-      });
+      this.#tell(() => this.#onReply!(reply));
     };
     worker.onerror = (event) => {
       event.preventDefault();
@@ -81,9 +77,7 @@ class Loading {
       const problem = running
         ? new LoadProblem(`${request.name} could not be read: the browser ran out of memory or stopped the loader.`)
         : missingPart(request.name);
-      this.#tell(() => {
-        this.#onProblem(problem);
-      });
+      this.#tell(() => this.#onProblem(problem));
     };
     worker.postMessage(request);
   }

@@ -25,9 +25,7 @@ export async function readSeveral(
       name,
       blob: file,
       limit,
-      onProgress: (fraction) => {
-        onProgress?.((done + fraction * file.size) / Math.max(1, whole));
-      },
+      onProgress: (fraction) => onProgress?.((done + fraction * file.size) / Math.max(1, whole)),
     };
     try {
       if (file.size === 0) throw new LoadProblem(`${name} is empty.`);

@@ -8,9 +8,7 @@ import { checkedCloud } from "./limits.ts";
 import { LoadProblem, missingPart } from "./problem.ts";
 import type { LoadReply, WorkerRequest } from "./protocol.ts";
 
-const post = (reply: LoadReply, transfer: Transferable[] = []) => {
-  self.postMessage(reply, { transfer });
-};
+const post = (reply: LoadReply, transfer: Transferable[] = []) => self.postMessage(reply, { transfer });
 
 /** The least number of milliseconds between two reports. The eye does not see faster changes. */
 const EVERY = 50;
@@ -49,17 +47,13 @@ function shortened(address: string): string {
 
 async function load(request: WorkerRequest): Promise<LoadedCloud> {
   const { name } = request;
-  const downloading = (fraction: number | null) => {
-    progress("Downloading", fraction);
-  };
+  const downloading = (fraction: number | null) => progress("Downloading", fraction);
   if (request.kind === "shape") {
     progress("Making", null);
     return makeSample(request.shape);
   }
 
-  const onProgress = (fraction: number) => {
-    progress("Reading", fraction);
-  };
+  const onProgress = (fraction: number) => progress("Reading", fraction);
   const { limit = MAX_POINTS } = request;
   if (request.kind === "files") {
     const { readSeveral } = await import("./several.ts");

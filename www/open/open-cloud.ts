@@ -117,9 +117,7 @@ export async function openCloud(
       ...(shared ? { shared } : hasFewCores() ? { workers: 1 } : {}),
       onProgress: report,
     });
-  const report = (fraction: number) => {
-    onProgress(sentence("Preparing", request.name, fraction), fraction);
-  };
+  const report = (fraction: number) => onProgress(sentence("Preparing", request.name, fraction), fraction);
   // A worker that hangs is replaced once.
   const making = made(copy, report).catch((error: unknown) => {
     if (!isHang(error)) throw error;

@@ -15,12 +15,8 @@ export function chooseColumns(at: readonly number[], choose: (columns: [string, 
   );
   const title = make("h2", { id: "columns-title" }, "Which columns are x, y and z?");
   const dialog = make("dialog", { id: "columns", "aria-labelledby": "columns-title" }, title, form);
-  form.addEventListener("submit", () => {
-    choose(fields.map(({ input }) => input.value) as [string, string, string]);
-  });
-  dialog.addEventListener("close", () => {
-    dialog.remove();
-  });
+  form.addEventListener("submit", () => choose(fields.map(({ input }) => input.value) as [string, string, string]));
+  dialog.addEventListener("close", () => dialog.remove());
   document.body.append(dialog);
   dialog.showModal();
 

@@ -44,9 +44,7 @@ export class Opening {
   readonly #parts: Parts;
   readonly #usual: Sample;
   readonly #picker: SamplePicker;
-  readonly #progress = new Progress(() => {
-    this.#stop();
-  });
+  readonly #progress = new Progress(() => this.#stop());
   #loading = new AbortController();
   /** The cloud that is being loaded. */
   #source: Source | null = null;
@@ -118,9 +116,7 @@ export class Opening {
       more.push("A few points lie far away from all others, and are not in the picture.");
       actions.push({
         label: "Show all",
-        run: () => {
-          viewer.setHome(ready.homeFrom(null, true));
-        },
+        run: () => viewer.setHome(ready.homeFrom(null, true)),
       });
     }
     if (ready.opened.stations.length > 0 && ready.settings.thickness === "auto") {
@@ -166,9 +162,7 @@ export class Opening {
     // The second frame begins when the first one, with the picture, is on screen.
     void nextFrame()
       .then(nextFrame)
-      .then(() => {
-        keepForOffline(request.kind === "sample" ? request.url : null);
-      });
+      .then(() => keepForOffline(request.kind === "sample" ? request.url : null));
     if (sample) this.#picker.showSample(sample);
     else this.#picker.showOwn(request.name);
   }

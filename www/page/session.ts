@@ -38,9 +38,7 @@ export async function startSession(wishes: Wishes, first: Source): Promise<void>
   // Places in space belong to a cloud, and are set with the cloud.
   const store = new Store({ ...settings, freeze: null });
   const viewer = new Viewer(byId("view", HTMLCanvasElement), store, false, coveredHeight);
-  new ResizeObserver(() => {
-    viewer.stage.refit();
-  }).observe(byId("verbs"));
+  new ResizeObserver(() => viewer.stage.refit()).observe(byId("verbs"));
   const turning = new Turning(viewer);
   const introduction = new Introduction(viewer, store, turning, wishes.isFirst);
   const panel = new Panel(viewer, store, settings, turning);
@@ -53,9 +51,7 @@ export async function startSession(wishes: Wishes, first: Source): Promise<void>
   const actions = {
     name: () => opening.shownName,
     link: () => address.link(),
-    changed: () => {
-      address.touch();
-    },
+    changed: () => address.touch(),
   };
   const workshop: Workshop = new Workshop(viewer, store, actions);
   const parts = { viewer, store, panel, address, workshop, status, message, notices };
@@ -65,9 +61,7 @@ export async function startSession(wishes: Wishes, first: Source): Promise<void>
 
   onFile({
     open: (files, notes) => void opening.open(fromFiles(files, notes, limitsOf(wishes))),
-    refuse: (sentence) => {
-      message.show(sentence);
-    },
+    refuse: (sentence) => message.show(sentence),
   });
   bindLessons(viewer, store, storytelling, message);
   const opened = wishes.story ? storytelling.tell(wishes.story) : opening.open(first);
@@ -95,12 +89,8 @@ function bindLessons(viewer: Viewer, store: Store, storytelling: Storytelling, m
         if (isComing) return;
         isComing = true;
         show(button)
-          .catch((error: unknown) => {
-            message.show(sentenceOf(error, `${what} could not be shown`));
-          })
-          .finally(() => {
-            isComing = false;
-          });
+          .catch((error: unknown) => message.show(sentenceOf(error, `${what} could not be shown`)))
+          .finally(() => (isComing = false));
       });
     }
   };

@@ -122,9 +122,7 @@ export class Status {
     this.#sentence = sentence;
     this.#captioned = caption;
     clearTimeout(this.#announcing);
-    this.#announcing = setTimeout(() => {
-      this.#announcement.textContent = sentence;
-    }, SETTLED);
+    this.#announcing = setTimeout(() => (this.#announcement.textContent = sentence), SETTLED);
     if (this.#timer !== undefined) return;
     this.#write();
     this.#timer = setTimeout(() => {

@@ -13,12 +13,8 @@ export interface ColorControl {
 export function bindColor(store: Store): ColorControl {
   const select = byId("color", HTMLSelectElement);
   const legend = byId("legend");
-  select.addEventListener("change", () => {
-    store.change({ color: select.value });
-  });
-  store.follow(({ color }) => {
-    select.value = color;
-  });
+  select.addEventListener("change", () => store.change({ color: select.value }));
+  store.follow(({ color }) => (select.value = color));
   return {
     offer: (cloud) => {
       select.replaceChildren(...colorChoices(cloud).map(({ value, label }) => new Option(label, value)));

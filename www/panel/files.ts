@@ -10,9 +10,7 @@ export interface FileActions {
 /** Calls `open` for files that are chosen by the button or dropped anywhere on the page. */
 export function onFile({ open, refuse }: FileActions): void {
   const input = byId("file", HTMLInputElement);
-  byId("open").addEventListener("click", () => {
-    input.click();
-  });
+  byId("open").addEventListener("click", () => input.click());
   input.addEventListener("change", () => {
     const files = [...(input.files ?? [])];
     // The input is emptied, so that choosing the same file again is a change.

@@ -28,22 +28,16 @@ export class Panel {
     this.follow = bindRadius(store);
     bindSettings(store);
     const looks = byId("looks", HTMLFieldSetElement);
-    store.follow((now) => {
-      looks.disabled = !canLook(now);
-    });
+    store.follow((now) => (looks.disabled = !canLook(now)));
     this.#color = bindColor(store);
     viewer.onLegend = this.#color.explain;
     const moves = new Moves(byId("view", HTMLCanvasElement), viewer, store, () => this.usual);
     bindVerbs(viewer, store, moves, turning);
     this.#pointSize = new PointSize(store);
-    bindTheme(store, (theme) => {
-      viewer.setTheme(theme);
-    });
+    bindTheme(store, (theme) => viewer.setTheme(theme));
     unfoldUnusual(opened);
 
-    byId("reset").addEventListener("click", () => {
-      moves.reset();
-    });
+    byId("reset").addEventListener("click", () => moves.reset());
   }
 
   /** Prepares the panel for a cloud that is about to be shown. */

@@ -10,12 +10,8 @@ export class PointSize {
 
   constructor(store: Store) {
     this.#store = store;
-    this.#choice = new Segmented("points", (size) => {
-      store.change({ size: size === "small" ? SMALL : this.#touching });
-    });
-    store.follow(() => {
-      this.#show();
-    });
+    this.#choice = new Segmented("points", (size) => store.change({ size: size === "small" ? SMALL : this.#touching }));
+    store.follow(() => this.#show());
   }
 
   /** Takes the size with which the points of the cloud on screen touch. */

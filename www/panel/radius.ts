@@ -6,14 +6,10 @@ import type { Store } from "../settings/store.ts";
 
 /** The radius of one hull: automatic, until the slider is moved. The returned function shows that of an answer. */
 export function bindRadius(store: Store): (answer: ViewAnswer) => void {
-  const slider = new Slider("exponent", SLIDERS.exponent.text, (exponent) => {
-    store.change({ radius: { exponent } });
-  });
+  const slider = new Slider("exponent", SLIDERS.exponent.text, (exponent) => store.change({ radius: { exponent } }));
   slider.clear();
   const automatic = byId("radius-auto");
-  automatic.addEventListener("click", () => {
-    store.change({ radius: { rule: "auto" } });
-  });
+  automatic.addEventListener("click", () => store.change({ radius: { rule: "auto" } }));
   const group = byId("radius-choice", HTMLFieldSetElement);
   store.follow(({ radius, inversion }) => {
     automatic.setAttribute("aria-pressed", String("rule" in radius));

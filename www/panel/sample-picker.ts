@@ -18,11 +18,7 @@ export class SamplePicker {
   constructor(onPick: (sample: Sample) => void) {
     this.#select.append(...SAMPLES.map(({ name, label }) => new Option(label, name)));
     this.#thumbnails.append(
-      ...SAMPLES.filter((sample) => sample.picture).map((sample) =>
-        thumbnail(sample, () => {
-          onPick(sample);
-        }),
-      ),
+      ...SAMPLES.filter((sample) => sample.picture).map((sample) => thumbnail(sample, () => onPick(sample))),
     );
     this.#select.addEventListener("change", () => {
       // The empty value stands for the user's own file, which is on screen already.

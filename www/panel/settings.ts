@@ -21,21 +21,13 @@ export function bindSettings(store: Store): void {
 /** A row of buttons, one for each text that the panel offers for the setting. */
 function bindChoice(store: Store, name: (typeof CHOICES)[number]): void {
   const row = rowOf(name);
-  const choice = new Segmented(idOf(name), (text) => {
-    store.change({ [name]: row.parse(text), ...TOGETHER[name] });
-  });
-  store.follow((now) => {
-    choice.value = row.write(now[name]);
-  });
+  const choice = new Segmented(idOf(name), (text) => store.change({ [name]: row.parse(text), ...TOGETHER[name] }));
+  store.follow((now) => (choice.value = row.write(now[name])));
 }
 
 function bindSlider(store: Store, name: (typeof SLIDING)[number]): void {
-  const slider = new Slider(idOf(name), SLIDERS[name].text, (value) => {
-    store.change({ [name]: value });
-  });
-  store.follow((now) => {
-    slider.value = now[name];
-  });
+  const slider = new Slider(idOf(name), SLIDERS[name].text, (value) => store.change({ [name]: value }));
+  store.follow((now) => (slider.value = now[name]));
 }
 
 function idOf(name: SettingName): string {

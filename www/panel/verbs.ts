@@ -16,12 +16,8 @@ const ASIDE = 0.9;
 /** The verbs over the picture: freeze and walk around, and where the frozen eye goes next. The panel has the same. */
 export function bindVerbs(viewer: Viewer, store: Store, moves: Moves, turning: Turning): void {
   const compare = byId("compare");
-  compare.addEventListener("click", () => {
-    store.change({ compare: store.current.compare === null ? MIDDLE : null });
-  });
-  byId("open-scan").addEventListener("click", () => {
-    byId("file").click();
-  });
+  compare.addEventListener("click", () => store.change({ compare: store.current.compare === null ? MIDDLE : null }));
+  byId("open-scan").addEventListener("click", () => byId("file").click());
   const freeze = byId("walk");
   const [here, tooHere] = [byId("eye-here"), byId("eye-here-too")];
   /** Where the camera looked before. */
@@ -45,14 +41,10 @@ export function bindVerbs(viewer: Viewer, store: Store, moves: Moves, turning: T
     });
   });
   for (const button of [here, tooHere]) {
-    button.addEventListener("click", () => {
-      store.change({ freeze: viewer.viewpoint });
-    });
+    button.addEventListener("click", () => store.change({ freeze: viewer.viewpoint }));
   }
   const stay = byId("freeze");
-  stay.addEventListener("click", () => {
-    moves.freeze(!moves.frozen);
-  });
+  stay.addEventListener("click", () => moves.freeze(!moves.frozen));
   store.follow(({ freeze: frozen, compare: divided }) => {
     compare.setAttribute("aria-pressed", String(divided !== null));
     for (const button of [freeze, stay]) button.setAttribute("aria-pressed", String(frozen !== null));

@@ -20,9 +20,7 @@ export async function showRight(viewer: Viewer): Promise<void> {
     { id: "right", tabindex: "-1", "aria-labelledby": "right-title" },
     make("h2", { id: "right-title" }, "How right is it?"),
     body,
-    button("Close", () => {
-      dialog.close();
-    }),
+    button("Close", () => dialog.close()),
   );
   dialog.addEventListener("close", () => {
     closing.abort();
@@ -49,9 +47,7 @@ export async function showRight(viewer: Viewer): Promise<void> {
     return;
   }
   const progress = make("progress", { max: "1", "aria-label": "Judging" });
-  const onProgress = (share: number) => {
-    progress.value = share;
-  };
+  const onProgress = (share: number) => (progress.value = share);
   const words = surface
     ? "A ray goes from the eye to each point. Those that the true surface stops are hidden."
     : "A station sees the points that it has measured. From each station, three methods are asked.";

@@ -50,9 +50,7 @@ export class Address {
   constructor(store: Store, beside: Beside) {
     this.#store = store;
     this.#beside = beside;
-    store.follow(() => {
-      this.touch();
-    });
+    store.follow(() => this.touch());
   }
 
   /** Must be called when a cloud is on screen. From then on, the address follows it. */
@@ -97,9 +95,7 @@ export class Address {
   touch(): void {
     if (!this.#cloud) return;
     clearTimeout(this.#timer);
-    this.#timer = setTimeout(() => {
-      this.#write();
-    }, CALM);
+    this.#timer = setTimeout(() => this.#write(), CALM);
   }
 
   /** The address that opens the page as it is now. `null` if no address can do that. */

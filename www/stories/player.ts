@@ -38,9 +38,7 @@ export class Player {
   constructor(story: Story, stage: Stage) {
     this.#story = story;
     this.#stage = stage;
-    const end = button("End", () => {
-      this.end();
-    });
+    const end = button("End", () => this.end());
     const heading = make("h2", {}, story.title);
     const row = make("div", { class: "row" }, this.#back, this.#next, end);
     this.#box = make("section", { id: "story", "aria-label": `Story: ${story.title}` }, heading, this.#says, row);

@@ -123,9 +123,7 @@ export class StreamedInquiry extends Inquiry {
       onEnd: () => {
         if (last && !last.exact) void show(last, true);
       },
-      onProblem: (error) => {
-        this.#refuse(view, error);
-      },
+      onProblem: (error) => this.#refuse(view, error),
     });
   }
 

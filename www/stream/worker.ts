@@ -9,9 +9,7 @@ import type { StreamReply, StreamStep, StreamTold, StreamView } from "./protocol
 /** The most points that are kept for the next view. */
 const KEPT = 4_000_000;
 
-const post = (reply: StreamReply, transfer: Transferable[] = []) => {
-  self.postMessage(reply, { transfer });
-};
+const post = (reply: StreamReply, transfer: Transferable[] = []) => self.postMessage(reply, { transfer });
 
 let opening: Promise<Octree> | undefined;
 let source: Streamed | undefined;

@@ -21,9 +21,7 @@ export class Compare {
     this.#viewer = viewer;
     this.#store = store;
     const button = byId("tool-compare");
-    button.addEventListener("click", () => {
-      this.toggle();
-    });
+    button.addEventListener("click", () => this.toggle());
     this.#bindDivider();
     store.follow(({ compare }) => {
       button.setAttribute("aria-pressed", String(compare !== null));
@@ -51,12 +49,8 @@ export class Compare {
 
   #bindDivider(): void {
     const divider = this.#divider;
-    const moveTo = (share: number) => {
-      this.#store.change({ compare: Math.min(1, Math.max(0, share)) });
-    };
-    divider.addEventListener("pointerdown", (event) => {
-      divider.setPointerCapture(event.pointerId);
-    });
+    const moveTo = (share: number) => this.#store.change({ compare: Math.min(1, Math.max(0, share)) });
+    divider.addEventListener("pointerdown", (event) => divider.setPointerCapture(event.pointerId));
     divider.addEventListener("pointermove", (event) => {
       if (!divider.hasPointerCapture(event.pointerId)) return;
       const { left, width } = divider.parentElement!.getBoundingClientRect();

@@ -16,9 +16,7 @@ export async function save(name: string, parts: Iterable<BlobPart>): Promise<voi
   link.download = name;
   link.click();
   // By then the browser has begun to read it.
-  setTimeout(() => {
-    URL.revokeObjectURL(link.href);
-  }, 60_000);
+  setTimeout(() => URL.revokeObjectURL(link.href), 60_000);
 }
 
 /** The numbers of a cloud for a file. Its colors are in bytes, as most programs expect them. */

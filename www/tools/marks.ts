@@ -49,9 +49,7 @@ export class Marks {
       element,
       anchors: [index],
       hides: false,
-      place: ([at]) => {
-        move(element, at!);
-      },
+      place: ([at]) => move(element, at!),
     });
   }
 

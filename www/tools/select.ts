@@ -23,13 +23,9 @@ export class Select implements Tool {
     this.#outline.classList.add("outline");
     bench.marks.svg.append(this.#outline);
     this.#drags = onDrag(canvas, () => active() && bench.viewer.cloud !== null, {
-      drag: (path) => {
-        this.#draw(path);
-      },
+      drag: (path) => this.#draw(path),
       end: (path, event) => {
-        bench.whenFinal(() => {
-          this.#end(path, event.shiftKey);
-        });
+        bench.whenFinal(() => this.#end(path, event.shiftKey));
       },
     });
     this.#remove.addEventListener("click", () => {

@@ -55,9 +55,7 @@ export class Tools {
       through: () => this.#through.checked,
       name: actions.name,
       changed: actions.changed,
-      whenFinal: (run, here) => {
-        this.#patience.whenFinal(run, here);
-      },
+      whenFinal: (run, here) => this.#patience.whenFinal(run, here),
     };
     const select: Select = new Select(bench, this.#canvas, () => this.#active === select);
     const measure = new Measure(bench);
@@ -71,17 +69,9 @@ export class Tools {
     const stations = new Stations(bench, store, byId("stations-card"));
     this.#marked = { measure, label, stations };
     this.#tools = [new Pick(bench), measure, select, label, stations, exports];
-    for (const tool of this.#tools) {
-      byId(`tool-${tool.name}`).addEventListener("click", () => {
-        this.#toggle(tool);
-      });
-    }
-    onClick(this.#canvas, (spot) => {
-      this.#click(spot);
-    });
-    this.#canvas.addEventListener("dblclick", (event) => {
-      this.#goTo(spotOf(this.#canvas, event));
-    });
+    for (const tool of this.#tools) byId(`tool-${tool.name}`).addEventListener("click", () => this.#toggle(tool));
+    onClick(this.#canvas, (spot) => this.#click(spot));
+    this.#canvas.addEventListener("dblclick", (event) => this.#goTo(spotOf(this.#canvas, event)));
     this.#compare = new Compare(viewer, store);
     this.#information = new Information(bench);
     this.#scaleBar = new ScaleBar(this.#marks.svg, viewer);

@@ -58,9 +58,7 @@ export class Workshop {
       this.#tools.begin();
       return;
     }
-    this.#coming ??= this.#make().finally(() => {
-      this.#coming = null;
-    });
+    this.#coming ??= this.#make().finally(() => (this.#coming = null));
     await this.#coming;
   }
 

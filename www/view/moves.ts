@@ -17,15 +17,9 @@ export class Moves {
     this.#store = store;
     this.#usual = usual;
     const actions: Partial<Record<Action, () => void>> = {
-      freeze: () => {
-        this.freeze(!this.frozen);
-      },
-      reset: () => {
-        this.reset();
-      },
-      hidden: () => {
-        this.#nextHidden();
-      },
+      freeze: () => this.freeze(!this.frozen),
+      reset: () => this.reset(),
+      hidden: () => this.#nextHidden(),
     };
     const names = Object.keys(actions) as Action[];
     canvas.addEventListener("keydown", (event) => {

@@ -27,9 +27,7 @@ export class Navigation {
     this.#canvas = canvas;
     this.#polite = polite;
     this.#controls = this.#place({ at: new Vector3(0, 0, 3), target: new Vector3(), up: new Vector3(0, 1, 0) });
-    canvas.addEventListener("keydown", (event) => {
-      this.#onKey(event);
-    });
+    canvas.addEventListener("keydown", (event) => this.#onKey(event));
     // In the capture phase, before the orbit controls.
     canvas.addEventListener(
       "wheel",
@@ -40,16 +38,8 @@ export class Navigation {
       { capture: true },
     );
     // The user's own move ends a flight.
-    for (const move of ["pointerdown", "wheel", "keydown"]) {
-      canvas.addEventListener(move, () => {
-        this.#flight = null;
-      });
-    }
-    for (const change of ["focus", "blur"]) {
-      canvas.addEventListener(change, () => {
-        this.#shareTouch();
-      });
-    }
+    for (const move of ["pointerdown", "wheel", "keydown"]) canvas.addEventListener(move, () => (this.#flight = null));
+    for (const change of ["focus", "blur"]) canvas.addEventListener(change, () => this.#shareTouch());
   }
 
   setHome(pose: Pose): void {
@@ -149,9 +139,7 @@ export class Navigation {
     controls.update();
     // The controls compute with angles and are a few bits off. The answer is for exactly the place that was asked for.
     this.#camera.position.copy(at);
-    controls.addEventListener("change", () => {
-      this.onMove();
-    });
+    controls.addEventListener("change", () => this.onMove());
     return controls;
   }
 

@@ -45,17 +45,13 @@ export class Stage {
     this.#eyeDome = new EyeDome();
     this.setTheme(THEMES.dark);
     this.#resizing.observe(canvas);
-    canvas.addEventListener("webglcontextlost", () => {
-      this.onLost();
-    });
+    canvas.addEventListener("webglcontextlost", () => this.onLost());
     canvas.addEventListener("webglcontextrestored", () => {
       this.invalidate();
       this.onRestored();
     });
     this.#resize();
-    this.#renderer.setAnimationLoop(() => {
-      this.#frame();
-    });
+    this.#renderer.setAnimationLoop(() => this.#frame());
   }
 
   /** The size of the picture in CSS pixels. */

@@ -26,13 +26,7 @@ export class Turning {
     if (isCalm()) return;
     const over = (this.#over = new AbortController());
     for (const touch of TOUCHES) {
-      document.addEventListener(
-        touch,
-        () => {
-          this.stop();
-        },
-        { signal: over.signal, capture: true, passive: true },
-      );
+      document.addEventListener(touch, () => this.stop(), { signal: over.signal, capture: true, passive: true });
     }
     let last = performance.now();
     let left = around > 0 ? 2 * Math.PI : Infinity;

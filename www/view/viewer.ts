@@ -91,16 +91,12 @@ export class Viewer {
       this.#isNew = false;
       this.onFrame();
     };
-    this.navigation.onMove = () => {
-      this.#inquire();
-    };
+    this.navigation.onMove = () => this.#inquire();
     // Before the first move, the whole cloud stays in the picture. After it, the camera stays in its place.
     this.stage.onResize = () => {
       if (this.isHome) this.reset();
     };
-    store.follow((now, before) => {
-      this.#apply(now, before);
-    });
+    store.follow((now, before) => this.#apply(now, before));
   }
 
   /** Lets the first picture not wait for the graphics card's compiler. Call it before the first cloud is shown. */
@@ -181,9 +177,7 @@ export class Viewer {
     const { inquiry, answer, home } = opened;
     const shown = (this.#shown = this.#made(opened));
     inquiry.onDetail = (detail) => this.#exchange(shown, detail);
-    this.#enter(shown, () => {
-      this.navigation.setHome(home.pose);
-    });
+    this.#enter(shown, () => this.navigation.setHome(home.pose));
     inquiry.onView(answer);
     this.#isNew = true;
     this.#inquire();
@@ -209,9 +203,7 @@ export class Viewer {
       this.stage.invalidate();
       this.onMap(mapped);
     };
-    inquiry.onError = (error) => {
-      this.onError(error);
-    };
+    inquiry.onError = (error) => this.onError(error);
     return shown;
   }
 

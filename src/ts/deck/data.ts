@@ -57,17 +57,13 @@ function fromAttribute(attribute: BinaryAttribute | ArrayLike<number>, length: n
     (stride ?? size * value.BYTES_PER_ELEMENT) / value.BYTES_PER_ELEMENT,
     offset / value.BYTES_PER_ELEMENT,
   ];
-  if (step === 3 && size === 3) {
-    return value.subarray(start, start + 3 * length);
-  }
+  if (step === 3 && size === 3) return value.subarray(start, start + 3 * length);
   const numbers = allocating(
     `${length} points`,
     () => new (value.BYTES_PER_ELEMENT === 4 ? Float32Array : Float64Array)(3 * length),
   );
   for (let i = 0; i < length; i++) {
-    for (let axis = 0; axis < Math.min(size, 3); axis++) {
-      numbers[3 * i + axis] = value[start + i * step + axis]!;
-    }
+    for (let axis = 0; axis < Math.min(size, 3); axis++) numbers[3 * i + axis] = value[start + i * step + axis]!;
   }
   return numbers;
 }

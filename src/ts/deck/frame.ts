@@ -51,25 +51,17 @@ export class Frame {
 
   /** The cloud's positions for the data's. */
   take(positions: Positions): Positions {
-    if (!this.#isInDegrees) {
-      return positions;
-    }
+    if (!this.#isInDegrees) return positions;
     const degrees = Float64Array.from(positions);
-    for (let i = 0; i < degrees.length; i += 3) {
-      degrees.set(this.#placed(degrees.subarray(i, i + 3)), i);
-    }
+    for (let i = 0; i < degrees.length; i += 3) degrees.set(this.#placed(degrees.subarray(i, i + 3)), i);
     this.#meters = LocalMeters.amid(degrees);
-    for (let i = 0; i < degrees.length; i += 3) {
-      degrees.set(this.#meters.of(degrees.subarray(i, i + 3)), i);
-    }
+    for (let i = 0; i < degrees.length; i += 3) degrees.set(this.#meters.of(degrees.subarray(i, i + 3)), i);
     return degrees;
   }
 
   /** Goes on with the positions that a frame with the same key has taken. */
   goOn(earlier: Frame): void {
-    if (this.#isInDegrees) {
-      this.#meters = earlier.#meters;
-    }
+    if (this.#isInDegrees) this.#meters = earlier.#meters;
   }
 
   /** The place of a viewpoint that is given in the data's coordinates. */
@@ -106,9 +98,7 @@ export class Frame {
   }
 
   #requireConvertible({ isGeospatial, projectionMode }: Viewport): void {
-    if (projectionMode === GLOBE) {
-      throw refused("a globe");
-    }
+    if (projectionMode === GLOBE) throw refused("a globe");
     if (isGeospatial === (this.#system === "cartesian")) {
       throw refused(isGeospatial ? "a geospatial view" : "a view that is not geospatial");
     }

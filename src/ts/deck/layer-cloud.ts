@@ -52,9 +52,7 @@ export class LayerCloud {
     this.#follower = new Follower(
       {
         next: () => this.#next(),
-        refused: (error) => {
-          this.#tell.error(error);
-        },
+        refused: (error) => this.#tell.error(error),
         lost: () => {
           this.#dropCloud();
           this.#unread = read;
@@ -96,9 +94,7 @@ export class LayerCloud {
   }
 
   #next(): Round | undefined {
-    if (this.#unread !== undefined) {
-      return this.#preparing(this.#unread);
-    }
+    if (this.#unread !== undefined) return this.#preparing(this.#unread);
     const cloud = this.#cloud;
     const isDue = this.#view.place !== undefined && this.#view.refinement.due !== undefined;
     return cloud !== undefined && isDue ? this.#viewing(cloud) : undefined;

@@ -125,12 +125,8 @@ export class VisiblePointCloudLayer<DataT = unknown> extends CompositeLayer<Visi
       answer: (answer, kind, milliseconds) => {
         (this.getCurrentLayer() as this | null)?.applyAnswer(answer, kind, milliseconds);
       },
-      map: (map) => {
-        (this.getCurrentLayer() as this | null)?.applyMap(map);
-      },
-      error: (error) => {
-        this.getCurrentLayer()?.raiseError(error, "");
-      },
+      map: (map) => (this.getCurrentLayer() as this | null)?.applyMap(map),
+      error: (error) => this.getCurrentLayer()?.raiseError(error, ""),
     });
     this.setState({
       cloud,
@@ -151,12 +147,8 @@ export class VisiblePointCloudLayer<DataT = unknown> extends CompositeLayer<Visi
 
   /** @internal */
   override updateState({ changeFlags }: Update): void {
-    if (this.context.viewport.id === NO_VIEW_YET) {
-      return;
-    }
-    if (changeFlags.dataChanged) {
-      this.state.refusal = undefined;
-    }
+    if (this.context.viewport.id === NO_VIEW_YET) return;
+    if (changeFlags.dataChanged) this.state.refusal = undefined;
     try {
       this.#look(changeFlags);
       this.state.refusal = undefined;
@@ -167,16 +159,12 @@ export class VisiblePointCloudLayer<DataT = unknown> extends CompositeLayer<Visi
 
   /** Draws all points. Reports the refusal once, and only if it lasts. */
   #refuse(error: Error): void {
-    if (this.state.refusal === error.message) {
-      return;
-    }
+    if (this.state.refusal === error.message) return;
     this.#drawAll();
     this.setState({ refusal: error.message });
     const report = () => {
       const layer = this.getCurrentLayer() as this | null;
-      if (layer?.state.refusal === error.message) {
-        layer.raiseError(error, "");
-      }
+      if (layer?.state.refusal === error.message) layer.raiseError(error, "");
     };
     setTimeout(() => requestAnimationFrame(() => requestAnimationFrame(report)), LASTING);
   }
@@ -201,9 +189,7 @@ export class VisiblePointCloudLayer<DataT = unknown> extends CompositeLayer<Visi
       hasSaid = true;
       console.info("hidden-point-removal: data in degrees takes no map of directions, so drafts are drawn");
     }
-    if (cloud.want(place, settings, drawsMaps)) {
-      this.#drawAll();
-    }
+    if (cloud.want(place, settings, drawsMaps)) this.#drawAll();
   }
 
   /** Draws all points until the next answer. */
@@ -262,9 +248,7 @@ export class VisiblePointCloudLayer<DataT = unknown> extends CompositeLayer<Visi
   applyAnswer(answer: Visibility, kind: AnswerKind, milliseconds: number): void {
     const { cloud, version } = this.state;
     let { mask } = this.state;
-    if (mask?.length !== cloud.length) {
-      mask = new Float32Array(cloud.length);
-    }
+    if (mask?.length !== cloud.length) mask = new Float32Array(cloud.length);
     mask.fill(0);
     for (const index of answer.indices) mask[index] = 1;
     const data: unknown = this.props.data;

@@ -72,9 +72,7 @@ export abstract class GatheredFilter<Node extends GatheredNode> extends CameraFi
   #visible = 0;
   #radius = 0;
   /** @internal */
-  protected readonly refuseNode: Refused = (error, points) => {
-    this.report({ error, points }, false);
-  };
+  protected readonly refuseNode: Refused = (error, points) => this.report({ error, points }, false);
 
   /** @internal */
   protected constructor(root: Space, settings: FilterSettings) {
@@ -108,9 +106,7 @@ export abstract class GatheredFilter<Node extends GatheredNode> extends CameraFi
       this.#isDropped = false;
       this.#askedVersion = undefined;
     }
-    if (!this.wantsAnswer) {
-      return undefined;
-    }
+    if (!this.wantsAnswer) return undefined;
     const camera = this.isEmpty ? undefined : this.cameras.due(this.frozen);
     return this.isStale && !this.#isPostponed(camera) ? this.#gathering() : camera && this.#viewing(camera);
   }
@@ -162,12 +158,8 @@ export abstract class GatheredFilter<Node extends GatheredNode> extends CameraFi
         this.#gatheredAt = performance.now();
         this.#isUnasked = true;
         this.cameras.again(gathered.points, gathered.spacing);
-        if (gathered.isEmpty) {
-          this.#visible = 0;
-        }
-        return () => {
-          this.tell();
-        };
+        if (gathered.isEmpty) this.#visible = 0;
+        return () => this.tell();
       },
       isGivenUp: () => {
         this.#isFailed = true;
@@ -186,9 +178,7 @@ export abstract class GatheredFilter<Node extends GatheredNode> extends CameraFi
       (answer, place) => {
         let count = 0;
         this.drawing.begin?.(camera, gathered.points);
-        for (const { node, own } of gathered.split(answer)) {
-          count += this.drawing.answer(camera, node, own) ?? 0;
-        }
+        for (const { node, own } of gathered.split(answer)) count += this.drawing.answer(camera, node, own) ?? 0;
         this.#visible = count;
         this.#radius = answer.radius;
         gathered.recycle(answer);

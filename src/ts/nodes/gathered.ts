@@ -78,21 +78,15 @@ export class Gathered<Node extends GatheredNode> {
    */
   async follow(nodes: readonly Node[], refused: Refused): Promise<void> {
     const gone = this.#leave(nodes);
-    if (this.#removed > FEW + this.#length / 2) {
-      this.drop();
-    }
+    if (this.#removed > FEW + this.#length / 2) this.drop();
     try {
       const positions = this.#read(nodes, refused);
       if (this.#cloud === undefined) {
         await this.#create(positions);
         return;
       }
-      if (gone.length > 0) {
-        await this.#cloud.remove(gone);
-      }
-      if (positions.length > 0) {
-        await this.#cloud.append(positions);
-      }
+      if (gone.length > 0) await this.#cloud.remove(gone);
+      if (positions.length > 0) await this.#cloud.append(positions);
     } catch (error) {
       this.drop();
       throw error;
@@ -146,9 +140,7 @@ export class Gathered<Node extends GatheredNode> {
   }
 
   async #create(positions: Float64Array): Promise<void> {
-    if (positions.length === 0) {
-      return;
-    }
+    if (positions.length === 0) return;
     const cloud = await prepareCloud({ numbers: positions, own: true }, this.#settings);
     if (this.#isClosed) {
       void cloud.dispose();
@@ -176,9 +168,7 @@ export class Gathered<Node extends GatheredNode> {
   #read(nodes: readonly Node[], refused: Refused): Float64Array {
     const parts: (Float32Array | Float64Array)[] = [];
     for (const node of nodes) {
-      if (this.#spans.has(node)) {
-        continue;
-      }
+      if (this.#spans.has(node)) continue;
       try {
         const numbers = node.read();
         const count = numbers.length / 3;

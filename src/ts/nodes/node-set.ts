@@ -101,9 +101,7 @@ export class NodeSet implements NodesDrawing<CloudNode> {
 
   /** Follows the changes of the points since the last frame. */
   follow(): void {
-    if (!this.#settings.dim && this.#settings.mapped === undefined) {
-      return;
-    }
+    if (!this.#settings.dim && this.#settings.mapped === undefined) return;
     for (const { points, display } of this.#nodes.values()) {
       try {
         display.follow();
@@ -125,9 +123,7 @@ export class NodeSet implements NodesDrawing<CloudNode> {
     } else {
       for (const points of given) this.#takeUpOne(points);
     }
-    if (this.#seen < this.#nodes.size) {
-      this.#forgetAbsent();
-    }
+    if (this.#seen < this.#nodes.size) this.#forgetAbsent();
   }
 
   dispose(): void {
@@ -137,12 +133,8 @@ export class NodeSet implements NodesDrawing<CloudNode> {
   }
 
   #takeUpBelow(object: Object3D): void {
-    if (!object.visible) {
-      return;
-    }
-    if (isPoints(object)) {
-      this.#takeUpOne(object);
-    }
+    if (!object.visible) return;
+    if (isPoints(object)) this.#takeUpOne(object);
     const { children } = object;
     for (let i = 0; i < children.length; i++) this.#takeUpBelow(children[i]!);
   }
@@ -152,18 +144,14 @@ export class NodeSet implements NodesDrawing<CloudNode> {
     if (node !== undefined) {
       node.seen = this.#frame;
       this.#seen += 1;
-      if (node.noticeChange()) {
-        this.#version += 1;
-      }
+      if (node.noticeChange()) this.#version += 1;
     }
   }
 
   #added(points: Points): CloudNode | undefined {
     const { geometry, material } = points;
     const refused = this.#refusedPoints.get(points);
-    if (isDimmed(points) || (refused?.geometry === geometry && refused.material === material)) {
-      return undefined;
-    }
+    if (isDimmed(points) || (refused?.geometry === geometry && refused.material === material)) return undefined;
     try {
       const node = new CloudNode(points, this.#root, this.#settings, this.#textures);
       node.display.enabled = this.#enabled;

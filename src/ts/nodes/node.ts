@@ -46,16 +46,12 @@ export class CloudNode implements GatheredNode {
 
   /** Whether the node has changed since it was read or refused. Returns true only once for each change. */
   noticeChange(): boolean {
-    if (!this.#isRead || this.#isUnchanged()) {
-      return false;
-    }
+    if (!this.#isRead || this.#isUnchanged()) return false;
     this.revision += 1;
     this.#isRead = false;
     this.#refused = undefined;
     this.display.leaveOthers();
-    if (!this.display.isAnswered) {
-      this.display.isPending = this.#settings.hidesPending;
-    }
+    if (!this.display.isAnswered) this.display.isPending = this.#settings.hidesPending;
     return true;
   }
 
@@ -69,9 +65,7 @@ export class CloudNode implements GatheredNode {
     try {
       const { numbers } = this.display.drawn.take(this.#matrix());
       this.#read.copy(this.#place);
-      if (this.#settings.nonFinite === "error") {
-        requireFinite(numbers);
-      }
+      if (this.#settings.nonFinite === "error") requireFinite(numbers);
       return numbers;
     } catch (error) {
       this.display.leave();
@@ -87,9 +81,7 @@ export class CloudNode implements GatheredNode {
 
   #isUnchanged(): boolean {
     const refused = this.#refused;
-    if (refused !== undefined) {
-      return this.#state().every((value, i) => Object.is(value, refused[i]));
-    }
+    if (refused !== undefined) return this.#state().every((value, i) => Object.is(value, refused[i]));
     return this.display.drawn.isUnchanged && placeIn(this.#root, this.points, this.#place).equals(this.#read);
   }
 

@@ -5,13 +5,9 @@ import type { Matrix4, Object3D } from "three";
  * coordinates: their rounding would separate points that are equal in two nodes.
  */
 export function placeIn(root: Object3D, object: Object3D, place: Matrix4): Matrix4 {
-  if (object === root) {
-    return place.identity();
-  }
+  if (object === root) return place.identity();
   const holder = holderOf(root, object);
-  if (object.matrixAutoUpdate) {
-    object.updateMatrix();
-  }
+  if (object.matrixAutoUpdate) object.updateMatrix();
   return holder === null ? place.copy(object.matrix) : placeIn(root, holder, place).multiply(object.matrix);
 }
 

@@ -134,9 +134,7 @@ export class PotreeDrawing implements NodesDrawing<Tile> {
   #takeUpAll(nodes: readonly OctreeNode[]): void {
     for (const node of nodes) {
       const { sceneNode, geometryNode } = node;
-      if (sceneNode === null || geometryNode.geometry === undefined) {
-        continue;
-      }
+      if (sceneNode === null || geometryNode.geometry === undefined) continue;
       let tile = this.#tiles.get(node);
       if (tile === undefined) {
         tile = new Tile(node, sceneNode);

@@ -39,13 +39,9 @@ export class PotreeFilter extends GatheredFilter<Tile> {
     const settings = readFilterOptions(typeof options === "object" ? { nonFinite: "skip", ...options } : options);
     super(WORLD, settings);
     this.drawing = new PotreeDrawing(viewer, settings);
-    const follow = () => {
-      this.update(viewer.scene.getActiveCamera());
-    };
+    const follow = () => this.update(viewer.scene.getActiveCamera());
     viewer.addEventListener("update", follow);
-    this.#leaveViewer = () => {
-      viewer.removeEventListener("update", follow);
-    };
+    this.#leaveViewer = () => viewer.removeEventListener("update", follow);
   }
 
   /** Draws everything as it was before, and frees the memory of the cloud. May be called twice. */

@@ -39,8 +39,6 @@ const changed = new Map<string, string | undefined>();
 /** Potree's vertex shader with the test. Undefined if it has no `main`. */
 export function withAnswer(vertexShader: string, dims: boolean): string | undefined {
   const key = `${dims} ${vertexShader}`;
-  if (!changed.has(key)) {
-    changed.set(key, withTest(vertexShader, (dims ? "\n#define hpr_dim" : "") + MAIN));
-  }
+  if (!changed.has(key)) changed.set(key, withTest(vertexShader, (dims ? "\n#define hpr_dim" : "") + MAIN));
   return changed.get(key);
 }

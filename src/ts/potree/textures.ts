@@ -65,9 +65,7 @@ export class Textures {
   ): void {
     const gl = this.#gl;
     const isNew = !this.#textures.has(key);
-    if (isNew) {
-      this.#textures.set(key, gl.createTexture());
-    }
+    if (isNew) this.#textures.set(key, gl.createTexture());
     this.bind(key, which);
     gl.pixelStorei(gl.UNPACK_FLIP_Y_WEBGL, false);
     gl.pixelStorei(gl.UNPACK_PREMULTIPLY_ALPHA_WEBGL, false);

@@ -39,9 +39,7 @@ export class Tile implements GatheredNode {
     const version = position === undefined ? 0 : versionOf(position);
     const isSame =
       this.#geometry === geometry && this.#version === version && this.#matrix.every((x, i) => x === elements[i]);
-    if (isSame) {
-      return false;
-    }
+    if (isSame) return false;
     this.#geometry = geometry;
     this.#version = version;
     this.#matrix = [...elements];

@@ -70,9 +70,7 @@ export function readPositions(
     numbers[to + 1] = attribute.getY(id);
     numbers[to + 2] = attribute.getZ(id);
   }
-  if (place !== undefined) {
-    movePoints(numbers, place);
-  }
+  if (place !== undefined) movePoints(numbers, place);
   return { numbers, own: true };
 }
 

@@ -100,9 +100,7 @@ export abstract class CameraFilter<Events extends FilterEvents> extends Sender<E
     this.#settings = settings;
     this.cameras = new FollowedCameras(
       settings,
-      () => {
-        this.follower.follow();
-      },
+      () => this.follower.follow(),
       (camera) => {
         this.drawing.drop(camera);
         this.leave(camera);
@@ -130,9 +128,7 @@ export abstract class CameraFilter<Events extends FilterEvents> extends Sender<E
    * camera of the last `update`, unless these were refused.
    */
   get settled(): boolean {
-    if (this.follower.isWaiting || this.follower.isLost) {
-      return !this.follower.isWaiting;
-    }
+    if (this.follower.isWaiting || this.follower.isLost) return !this.follower.isWaiting;
     const isIdle = this.frozen || !this.enabled || this.#isDisposed || this.isEmpty;
     return !this.wantsAnswer && (isIdle || this.cameras.areSettled);
   }
@@ -143,15 +139,11 @@ export abstract class CameraFilter<Events extends FilterEvents> extends Sender<E
    * While one view is being answered, only the newest of the later views is kept.
    */
   update(camera: Camera): void {
-    if (this.#isDisposed) {
-      return;
-    }
+    if (this.#isDisposed) return;
     let isChanged;
     try {
       this.drawing.follow();
-      if (!this.enabled || this.frozen) {
-        return;
-      }
+      if (!this.enabled || this.frozen) return;
       const followed = this.cameras.of(camera);
       this.drawing.select(followed);
       if (this.cameras.look(followed, this.#object)) {
@@ -174,9 +166,7 @@ export abstract class CameraFilter<Events extends FilterEvents> extends Sender<E
 
   /** Draws everything as it was before, and frees the memory of the cloud. May be called twice. */
   dispose(): void {
-    if (this.#isDisposed) {
-      return;
-    }
+    if (this.#isDisposed) return;
     this.#isDisposed = true;
     this.follower.stop();
     this.cameras.stop();
@@ -206,9 +196,7 @@ export abstract class CameraFilter<Events extends FilterEvents> extends Sender<E
 
   /** @internal */
   protected get wantsAnswer(): boolean {
-    if (!this.enabled || this.#isDisposed) {
-      return false;
-    }
+    if (!this.enabled || this.#isDisposed) return false;
     return this.isStale || (!this.isEmpty && this.cameras.due(this.frozen) !== undefined);
   }
 
@@ -226,13 +214,9 @@ export abstract class CameraFilter<Events extends FilterEvents> extends Sender<E
   ): Round<Seen> {
     return camera.round(this.#settings.stale, ask, (answer, kind, milliseconds, place) => {
       const drawn = answer instanceof VisibilityMap ? drawMap(answer, place) : draw(answer, place);
-      if (drawn === undefined) {
-        return undefined;
-      }
+      if (drawn === undefined) return undefined;
       this.follower.answered();
-      if (!isStandIn(kind)) {
-        this.readiness.resolve();
-      }
+      if (!isStandIn(kind)) this.readiness.resolve();
       const change = { ...drawn, milliseconds, answer: kind, camera: camera.camera };
       return () => {
         this.tell();

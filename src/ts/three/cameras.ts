@@ -70,9 +70,7 @@ export class FollowedCameras {
   /** Reads the camera's place in the object's space. Returns whether it has moved. */
   look(followed: FollowedCamera, object: Space): boolean {
     const { place, rounding } = placeOf(followed.camera, object);
-    if (!followed.move(place, this.#settings.moveThreshold, this.#spacing, rounding)) {
-      return false;
-    }
+    if (!followed.move(place, this.#settings.moveThreshold, this.#spacing, rounding)) return false;
     followed.refinement.moved(this.#stagesFor(followed));
     return true;
   }
@@ -98,12 +96,8 @@ export class FollowedCameras {
     for (const followed of this.#cameras.values()) {
       const isLeftOut = begunOnly && !followed.refinement.isBegun;
       const stage = followed.place !== undefined && !isLeftOut ? followed.refinement.due : undefined;
-      if (stage !== undefined && isStandIn(stage.kind)) {
-        return followed;
-      }
-      if (stage !== undefined) {
-        first ??= followed;
-      }
+      if (stage !== undefined && isStandIn(stage.kind)) return followed;
+      if (stage !== undefined) first ??= followed;
     }
     return first;
   }

@@ -56,18 +56,12 @@ export class DimmedPoints {
   }
 
   #draw(index: BufferAttribute | null, start: number, count: number): void {
-    if (this.#refused !== undefined && this.#refused.material === this.#points.material) {
-      return;
-    }
+    if (this.#refused !== undefined && this.#refused.material === this.#points.material) return;
     const { geometry } = this.#child;
-    if (geometry.index !== index) {
-      geometry.setIndex(index);
-    }
+    if (geometry.index !== index) geometry.setIndex(index);
     geometry.setDrawRange(start, count);
     this.#isShown = true;
-    if (this.#child.parent !== this.#points) {
-      this.#points.add(this.#child);
-    }
+    if (this.#child.parent !== this.#points) this.#points.add(this.#child);
     this.follow();
   }
 
@@ -84,9 +78,7 @@ export class DimmedPoints {
   follow(): void {
     const [points, child] = [this.#points, this.#child];
     const { attributes, boundingSphere = null } = (points.geometry as Partial<BufferGeometry> | undefined) ?? {};
-    if (!this.#isShown || attributes === undefined) {
-      return;
-    }
+    if (!this.#isShown || attributes === undefined) return;
     // Tile viewers hide all objects before they show some of them. They do not update the place of
     // children that they have not added themselves.
     child.visible = true;
@@ -96,9 +88,7 @@ export class DimmedPoints {
     child.frustumCulled = points.frustumCulled;
     this.#share(attributes);
     child.geometry.boundingSphere = boundingSphere;
-    if (this.#given !== undefined) {
-      return;
-    }
+    if (this.#given !== undefined) return;
     const material = points.material as PointsMaterial;
     if (this.#copied?.from !== material || this.#copied.version !== material.version) {
       this.#copyAgain();
@@ -115,13 +105,9 @@ export class DimmedPoints {
     this.#child.removeFromParent();
     const { geometry, material } = this.#child;
     // Shared resources must stay on the graphics card.
-    for (const name of Object.keys(geometry.attributes)) {
-      geometry.deleteAttribute(name);
-    }
+    for (const name of Object.keys(geometry.attributes)) geometry.deleteAttribute(name);
     geometry.dispose();
-    if (this.#given === undefined) {
-      (material as Material).dispose();
-    }
+    if (this.#given === undefined) (material as Material).dispose();
   }
 
   #share(attributes: BufferGeometry["attributes"]): void {

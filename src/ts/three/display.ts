@@ -60,9 +60,7 @@ export class Display {
 
   /** How many points are drawn, without the dimmed ones. */
   get count(): number {
-    if (this.#shownMap !== undefined) {
-      return this.drawnIndices.length;
-    }
+    if (this.#shownMap !== undefined) return this.drawnIndices.length;
     return this.#order?.visible ?? this.drawn.total;
   }
 
@@ -84,9 +82,7 @@ export class Display {
     const isOther = this.#camera !== camera;
     this.#camera = camera;
     // The points may have moved in the map's space.
-    if (isOther || this.#view?.mapped !== undefined) {
-      this.#show();
-    }
+    if (isOther || this.#view?.mapped !== undefined) this.#show();
   }
 
   /** Whether maps can be drawn. Undefined until the points were drawn once. */
@@ -119,9 +115,7 @@ export class Display {
 
   /** The indices of the points that are drawn, without the dimmed ones. */
   get drawnIndices(): Uint32Array {
-    if (this.#layers !== undefined) {
-      return new Uint32Array(0);
-    }
+    if (this.#layers !== undefined) return new Uint32Array(0);
     const shown = this.#shownMap;
     return shown === undefined ? this.drawn.drawn : this.drawn.drawnBy(shown.texture.map, shown.matrix);
   }
@@ -153,9 +147,7 @@ export class Display {
 
   /** Releases the points if they are no longer the ones that were read. */
   leaveOthers(): void {
-    if (!this.drawn.isSame) {
-      this.leave();
-    }
+    if (!this.drawn.isSame) this.leave();
   }
 
   /** Releases the points that were read. */
@@ -192,9 +184,7 @@ export class Display {
   }
 
   #show(): void {
-    if (!this.#enabled) {
-      return;
-    }
+    if (!this.#enabled) return;
     const [shown, order] = [this.#shownMap, this.#order];
     this.#mapped?.show(shown?.texture, shown?.matrix);
     if (shown !== undefined) {

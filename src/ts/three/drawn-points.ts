@@ -58,9 +58,7 @@ export class DrawnPoints {
   /** The numbers of the points that are drawn. */
   get drawn(): Uint32Array {
     const order = this.#shown;
-    if (order !== undefined) {
-      return (order.attribute.array as Uint32Array).slice(0, order.visible);
-    }
+    if (order !== undefined) return (order.attribute.array as Uint32Array).slice(0, order.visible);
     return this.#ids?.slice() ?? Uint32Array.from({ length: this.#total }, (_, i) => i);
   }
 
@@ -75,9 +73,7 @@ export class DrawnPoints {
   /** Whether the geometry still draws the points that were read last. Their positions may have changed. */
   get isSame(): boolean {
     const last = this.#taken;
-    if (last === undefined || this.#points.geometry !== last.geometry) {
-      return false;
-    }
+    if (last === undefined || this.#points.geometry !== last.geometry) return false;
     const { index, drawRange, attributes } = last.geometry as Partial<BufferGeometry>;
     const own = this.#shown;
     return (
@@ -103,13 +99,9 @@ export class DrawnPoints {
    */
   take(place?: readonly number[]): ReadPositions {
     const same = this.isSame;
-    if (!same) {
-      this.release();
-    }
+    if (!same) this.release();
     const { geometry } = this.#points;
-    if (!same) {
-      requireUnfiltered(geometry);
-    }
+    if (!same) requireUnfiltered(geometry);
     const position = requireFilterable(geometry);
     if (!same) {
       const { index, drawRange } = geometry;
@@ -133,9 +125,7 @@ export class DrawnPoints {
     const { attribute } = order;
     const numbers = attribute.array as Uint32Array;
     numbers.set(indices);
-    if (this.#listsHidden) {
-      listHidden(numbers, indices.length);
-    }
+    if (this.#listsHidden) listHidden(numbers, indices.length);
     const [ids, end] = [this.#ids, this.#listsHidden ? this.#total : indices.length];
     if (ids !== undefined) {
       for (let i = 0; i < end; i++) numbers[i] = ids[numbers[i]!]!;
@@ -144,9 +134,7 @@ export class DrawnPoints {
     attribute.clearUpdateRanges();
     attribute.addUpdateRange(0, end);
     attribute.needsUpdate = true;
-    if (this.#shown === order) {
-      this.#taken?.geometry.setDrawRange(0, order.visible);
-    }
+    if (this.#shown === order) this.#taken?.geometry.setDrawRange(0, order.visible);
     return order;
   }
 
@@ -169,26 +157,18 @@ export class DrawnPoints {
   /** Restores the index and the draw range from before the filter, except where others have changed them. */
   showAll(): void {
     const shown = this.#shown;
-    if (shown === undefined) {
-      return;
-    }
+    if (shown === undefined) return;
     this.#shown = undefined;
     const { geometry, index, start, count } = this.#taken!;
-    if (geometry.index === shown.attribute) {
-      geometry.setIndex(index);
-    }
+    if (geometry.index === shown.attribute) geometry.setIndex(index);
     const range = geometry.drawRange as BufferGeometry["drawRange"] | undefined;
-    if (range?.start === 0 && range.count === shown.visible) {
-      geometry.setDrawRange(start, count);
-    }
+    if (range?.start === 0 && range.count === shown.visible) geometry.setDrawRange(start, count);
   }
 
   /** Leaves the geometry as if there had been no filter. */
   release(): void {
     this.showAll();
-    if (this.#taken !== undefined) {
-      taken.delete(this.#taken.geometry);
-    }
+    if (this.#taken !== undefined) taken.delete(this.#taken.geometry);
     this.#taken = this.#ids = undefined;
     this.#total = 0;
   }
@@ -203,9 +183,7 @@ export function requireUnfiltered(geometry: unknown): asserts geometry is Buffer
   if (typeof geometry !== "object" || geometry === null || !("isBufferGeometry" in geometry)) {
     throw new HprError("option", `points: geometry must be a THREE.BufferGeometry, got ${describe(geometry)}`);
   }
-  if (isFiltered(geometry)) {
-    throw new HprError("option", "points: this geometry has a HiddenPointFilter already");
-  }
+  if (isFiltered(geometry)) throw new HprError("option", "points: this geometry has a HiddenPointFilter already");
 }
 
 /** Refuses geometries whose points are drawn elsewhere than at their positions. */
@@ -242,9 +220,7 @@ function drawnIds(
   const start = Math.max(0, range.start);
   const end = Math.min(index?.count ?? length, range.start + range.count);
   const count = Math.max(0, end - start);
-  if (index === null && count === length) {
-    return undefined;
-  }
+  if (index === null && count === length) return undefined;
   const ids = allocating(`${count} indices`, () => new Uint32Array(count));
   for (let i = 0; i < count; i++) {
     const id = index?.getX(start + i) ?? start + i;

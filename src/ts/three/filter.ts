@@ -108,29 +108,21 @@ export class HiddenPointFilter extends CameraFilter<HiddenPointFilterEvents> {
 
   /** @internal */
   protected override next(): Round | undefined {
-    if (this.isStale) {
-      return this.#preparing();
-    }
+    if (this.isStale) return this.#preparing();
     const [cloud, camera] = [this.#cloud, this.enabled ? this.cameras.due(this.frozen) : undefined];
-    if (cloud === undefined || camera === undefined) {
-      return undefined;
-    }
+    if (cloud === undefined || camera === undefined) return undefined;
     return this.view(
       camera,
       (place, stage) => see(cloud, place, stage),
       (answer) => {
-        if (!this.drawing.drawn.isSame) {
-          return undefined;
-        }
+        if (!this.drawing.drawn.isSame) return undefined;
         const count = this.drawing.answer(camera, answer.indices);
         cloud.recycle(answer);
         this.#count = count;
         return { count };
       },
       (map) => {
-        if (!this.drawing.drawn.isSame) {
-          return undefined;
-        }
+        if (!this.drawing.drawn.isSame) return undefined;
         this.drawing.map(camera, map);
         return { count: this.#count };
       },
@@ -176,9 +168,7 @@ export class HiddenPointFilter extends CameraFilter<HiddenPointFilterEvents> {
         this.cameras.again(cloud.length, cloud.spacing);
         // If `update` is called in the same task, `ready` waits for the answer.
         queueMicrotask(() => {
-          if (!this.follower.isBusy) {
-            this.readiness.resolve();
-          }
+          if (!this.follower.isBusy) this.readiness.resolve();
         });
         return undefined;
       },

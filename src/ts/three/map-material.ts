@@ -92,9 +92,7 @@ class MapMaterial extends MapPatch {
 
   follow(): void {
     const { material } = this;
-    if (material.onBeforeCompile === this.#compile && material.customProgramCacheKey === this.#key) {
-      return;
-    }
+    if (material.onBeforeCompile === this.#compile && material.customProgramCacheKey === this.#key) return;
     // oxlint-disable-next-line typescript/unbound-method -- called with the material
     const { onBeforeCompile, customProgramCacheKey } = material;
     this.#compile = (shader, renderer) => {

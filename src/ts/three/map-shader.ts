@@ -28,8 +28,6 @@ const MAIN = /\bvoid\s+main\s*\(\s*(?:void)?\s*\)/;
  * has no `main`.
  */
 export function withTest(vertexShader: string, main: string): string | undefined {
-  if (!MAIN.test(vertexShader)) {
-    return undefined;
-  }
+  if (!MAIN.test(vertexShader)) return undefined;
   return `${vertexShader.replace(MAIN, "void hprMain()")}${TEST}${main}`;
 }

@@ -33,9 +33,7 @@ export class MapTextures {
   /** The texture of this map. */
   of(camera: unknown, map: VisibilityMap): MapTexture {
     const last = this.#textures.get(camera);
-    if (last?.map === map) {
-      return last;
-    }
+    if (last?.map === map) return last;
     const { length } = map.data;
     let texture = last?.texture;
     if (texture === undefined || texture.image.data!.length < length) {
@@ -113,9 +111,7 @@ export class MappedPoints {
     }
     this.#material?.follow();
     const [points, hooks] = [this.#points, this.#hooks];
-    if (points.onBeforeRender !== hooks?.onBeforeRender || points.onAfterRender !== hooks.onAfterRender) {
-      this.#hook();
-    }
+    if (points.onBeforeRender !== hooks?.onBeforeRender || points.onAfterRender !== hooks.onAfterRender) this.#hook();
   }
 
   /** Everything is as before. */
@@ -191,8 +187,6 @@ export class MappedPoints {
 
 /** The renderer sends uniforms only when the program or the material changes. So it must choose the program again. */
 function again(renderer: WebGLRenderer): void {
-  if ("isWebGPURenderer" in renderer) {
-    return;
-  }
+  if ("isWebGPURenderer" in renderer) return;
   (renderer.state as { useProgram(program: WebGLProgram | null): boolean }).useProgram(null);
 }

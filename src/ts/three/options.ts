@@ -95,14 +95,10 @@ function oneOf<T extends string | boolean>(given: Record<string, unknown>, name:
 }
 
 function readMaterial(material: unknown, dim: boolean): Material | undefined {
-  if (material === undefined) {
-    return undefined;
-  }
+  if (material === undefined) return undefined;
   if (typeof material !== "object" || material === null || !("isMaterial" in material)) {
     throw new HprError("option", `dimMaterial must be a THREE.Material, got ${describe(material)}`);
   }
-  if (!dim) {
-    throw new HprError("option", `dimMaterial needs mode "dim"`);
-  }
+  if (!dim) throw new HprError("option", `dimMaterial needs mode "dim"`);
   return material as Material;
 }

@@ -76,9 +76,7 @@ export async function readCopc(
     const { says } = chunkParts(compressed, node.pointCount, header);
     if (says !== undefined) found.add(`the chunk at byte ${node.pointDataOffset} ${says}`);
     try {
-      decodeChunk(perf, compressed, node.pointCount, header, (view, at) => {
-        taker.take(view, at);
-      });
+      decodeChunk(perf, compressed, node.pointCount, header, (view, at) => taker.take(view, at));
     } catch {
       throw lazDamaged();
     }

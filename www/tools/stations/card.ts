@@ -75,13 +75,10 @@ export class StationCard {
     this.#body.replaceChildren(
       ...stations.map(({ name }, i) => {
         const row = found?.rows[i];
-        const remove = button(
-          "",
-          () => {
-            this.#actions.remove(i);
-          },
-          { class: "remove", "aria-label": `Remove the station ${name}` },
-        );
+        const remove = button("", () => this.#actions.remove(i), {
+          class: "remove",
+          "aria-label": `Remove the station ${name}`,
+        });
         const counts = [row?.sees, row?.alone].map((count) => (count === undefined ? "–" : number.format(count)));
         return tableRow(name, ...counts, remove);
       }),

@@ -36,9 +36,7 @@ export class Stations implements Tool {
           this.add([{ name: this.#nextName(), at: store.current.freeze ?? bench.viewer.viewpoint }]);
         }
       },
-      stop: () => {
-        this.#running?.abort();
-      },
+      stop: () => this.#running?.abort(),
       remove: (i) => {
         this.#stations = this.#stations.filter((_, other) => other !== i);
         this.#changed();
