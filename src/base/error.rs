@@ -1,6 +1,8 @@
 //! The one error type. Every variant names the value or index that was refused.
 
-use core::fmt;
+use core::fmt::{self, Write};
+
+use crate::base::limit::MAX_POINTS;
 
 /// Why a cloud, a viewpoint or an option was refused.
 ///
@@ -162,115 +164,130 @@ impl Error {
     }
 }
 
-impl fmt::Display for Error {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match *self {
-            Self::NonFinite { count, first } => write!(
-                f,
-                "{count} point(s) have a coordinate that is NaN or infinite, the first at index {first}"
-            ),
-            Self::Viewpoint {
-                viewpoint: [x, y, z],
-            } => {
-                let (x, y, z) = (Number(x), Number(y), Number(z));
-                write!(f, "the viewpoint must be finite, got {x}, {y}, {z}")
+/// What the marks in a message stand for: each `@` for the next word, each `#` for the next number.
+pub(crate) struct Message {
+    pub text: &'static str,
+    pub words: [&'static str; 2],
+    pub numbers: [f64; 3],
+}
+
+impl Error {
+    /// The message, in a form that needs no formatting in the wasm.
+    #[inline(never)]
+    pub(crate) fn message(&self) -> Message {
+        let (mut words, mut numbers) = ([""; 2], [0.0; 3]);
+        let text = match *self {
+            Self::NonFinite { count, first } => {
+                numbers = [count as f64, first as f64, 0.0];
+                "# point(s) have a coordinate that is NaN or infinite, the first at index #"
+            }
+            Self::Viewpoint { viewpoint } => {
+                numbers = viewpoint;
+                "the viewpoint must be finite, got #, #, #"
             }
             Self::Camera { problem, value } => {
-                write!(f, "the camera's {problem}, got {}", Number(value))
+                (words[0], numbers[0]) = (problem, value);
+                "the camera's @, got #"
             }
-            Self::Direction {
-                direction: [x, y, z],
-            } => {
-                let (x, y, z) = (Number(x), Number(y), Number(z));
-                write!(
-                    f,
-                    "the direction must be finite and not zero, got {x}, {y}, {z}"
-                )
+            Self::Direction { direction } => {
+                numbers = direction;
+                "the direction must be finite and not zero, got #, #, #"
             }
             Self::ViewpointDimension { dimension } => {
-                write!(f, "the viewpoint must be {dimension} finite numbers")
+                numbers[0] = dimension as f64;
+                "the viewpoint must be # finite numbers"
             }
-            Self::PositionsLength { len, dimension } => write!(
-                f,
-                "{len} coordinates are not a multiple of the dimension, {dimension}"
-            ),
+            Self::PositionsLength { len, dimension } => {
+                numbers = [len as f64, dimension as f64, 0.0];
+                "# coordinates are not a multiple of the dimension, #"
+            }
             Self::Dimension { option, dimension } => {
-                write!(f, "{option} needs a cloud of dimension 3, not {dimension}")
+                (words[0], numbers[0]) = (option, dimension as f64);
+                "@ needs a cloud of dimension 3, not #"
             }
             Self::Excludes { option, other } => {
-                write!(f, "{option} cannot be combined with {other}")
+                words = [option, other];
+                "@ cannot be combined with @"
             }
-            Self::BoundsInvalid => write!(
-                f,
+            Self::BoundsInvalid => {
                 "a box must be [min, max], where no coordinate of min is above that of max"
-            ),
-            Self::MaskLength { given, len } => write!(
-                f,
-                "within mask must have one element for each of {len} indices, got {given}"
-            ),
-            Self::RadiusInvalid { radius } => {
-                let radius = Number(radius);
-                write!(f, "radius must be finite and positive, got {radius}")
             }
-            Self::RadiusTooSmall { radius, farthest } => write!(
-                f,
-                "radius {} is smaller than the distance of the farthest point, {}",
-                Number(radius),
-                Number(farthest)
-            ),
-            Self::RadiusOverflow {
-                radius: Some(radius),
-                farthest,
-            } => write!(
-                f,
-                "radius must be at most 8.98e307, got {} (an exponent e makes it {} * 10^e)",
-                Number(radius),
-                Number(farthest)
-            ),
-            Self::RadiusOverflow {
-                radius: None,
-                farthest,
-            } => write!(
-                f,
-                "the farthest distance ({}) exceeds the range of f64",
-                Number(farthest)
-            ),
+            Self::MaskLength { given, len } => {
+                numbers = [len as f64, given as f64, 0.0];
+                "within mask must have one element for each of # indices, got #"
+            }
+            Self::RadiusInvalid { radius } => {
+                numbers[0] = radius;
+                "radius must be finite and positive, got #"
+            }
+            Self::RadiusTooSmall { radius, farthest } => {
+                numbers = [radius, farthest, 0.0];
+                "radius # is smaller than the distance of the farthest point, #"
+            }
+            Self::RadiusOverflow { radius, farthest } => {
+                numbers = [radius.unwrap_or(farthest), farthest, 0.0];
+                match radius {
+                    Some(_) => {
+                        "radius must be at most 8.98e307, got # (an exponent e makes it # * 10^e)"
+                    }
+                    None => "the farthest distance (#) exceeds the range of f64",
+                }
+            }
             Self::Parameter {
                 option,
                 must_be,
                 value,
-            } => write!(f, "{option} must be {must_be}, got {}", Number(value)),
+            } => {
+                (words, numbers[0]) = ([option, must_be], value);
+                "@ must be @, got #"
+            }
             Self::OutOfRange {
                 option,
                 value,
                 least,
                 most,
             } => {
-                let (value, least, most) = (Number(value), Number(least), Number(most));
-                write!(f, "{option} must be from {least} to {most}, got {value}")
+                (words[0], numbers) = (option, [least, most, value]);
+                "@ must be from # to #, got #"
             }
-            Self::TooManyPoints { count } => write!(
-                f,
-                "{count} points exceed the limit of {}",
-                crate::base::limit::MAX_POINTS
-            ),
-            Self::MergeRadius => write!(
-                f,
+            Self::TooManyPoints { count } => {
+                numbers = [count as f64, MAX_POINTS as f64, 0.0];
+                "# points exceed the limit of #"
+            }
+            Self::MergeRadius => {
                 "merging needs the radius, in the cloud's units, or the exponential scale that all parts were seen with"
-            ),
+            }
             Self::IdsLength {
                 part,
                 positions,
                 ids,
-            } => write!(f, "part {part} has {positions} positions, but {ids} ids"),
-            Self::IndexOutOfRange { index, len } => {
-                write!(
-                    f,
-                    "index {index} is out of range for a cloud of length {len}"
-                )
+            } => {
+                numbers = [part as f64, positions as f64, ids as f64];
+                "part # has # positions, but # ids"
             }
-            Self::OutOfMemory => write!(f, "not enough memory for this cloud"),
+            Self::IndexOutOfRange { index, len } => {
+                numbers = [f64::from(index), len as f64, 0.0];
+                "index # is out of range for a cloud of length #"
+            }
+            Self::OutOfMemory => "not enough memory for this cloud",
+        };
+        Message {
+            text,
+            words,
+            numbers,
         }
+    }
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let message = self.message();
+        let (mut words, mut numbers) = (message.words.iter(), message.numbers.iter());
+        message.text.chars().try_for_each(|mark| match mark {
+            '@' => f.write_str(words.next().unwrap_or(&"")),
+            '#' => Number(*numbers.next().unwrap_or(&0.0)).fmt(f),
+            other => f.write_char(other),
+        })
     }
 }
 

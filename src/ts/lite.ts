@@ -2,7 +2,7 @@
 import { addDisposeSymbol } from "./base/dispose-symbol.js";
 import { describe, HprError } from "./base/errors.js";
 import { addTag } from "./base/tag.js";
-import { HeldCloud, type OperatorBindings } from "./cloud/held-cloud.js";
+import { type CoreOptions, HeldCloud, type OperatorBindings } from "./cloud/held-cloud.js";
 import { type Visibility as FullVisibility, VisibilityAnswer } from "./cloud/visibility.js";
 import { type Binary, compiledOnce, compileOwn, type InitInput, type SyncInitInput } from "./instance/compile.js";
 import { type Engine, required } from "./instance/engine.js";
@@ -20,11 +20,13 @@ import { type Positions, readViewpoint, type Viewpoint } from "./query/positions
 import {
   chosenInversion,
   chosenRadius,
+  coreNumbers,
   type Inversion,
   NO_OPTIONS,
   resolvedInversion,
   ruleSettings,
   type ResolvedInversion as FullInversion,
+  type ViewSettings,
 } from "./query/view-options.js";
 
 export { HprError, type HprErrorCode } from "./base/errors.js";
@@ -170,9 +172,8 @@ export class PointCloud {
     const [x, y, z] = readViewpoint(viewpoint, this.#cloud.dimension) as [number, number, number];
     refuseSearch("radius", given["radius"]);
     const settings = { ...NO_OPTIONS, ...chosenRadius(given), ...chosenInversion(given["inversion"]) };
-    const memory = (length: number) => new Uint32Array(length);
     const { instance, handle } = this.#cloud.requireOpen();
-    const answer = instance.call((bindings) => bindings.visibleFrom(handle, x, y, z, { ...settings, memory }));
+    const answer = instance.call((bindings) => bindings.visibleFrom(handle, x, y, z, coreOptions(settings)));
     const { indices, radius, exponent, evaluations, scales } = answer;
     const { length } = this;
     const inversion = resolvedInversion(settings, scales);
@@ -192,9 +193,8 @@ export class PointCloud {
     refuseSearch("the rule", rule);
     // Refuses what is no rule at all.
     const settings = ruleSettings(rule);
-    const memory = () => new Uint32Array(0);
     const { instance, handle } = this.#cloud.requireOpen();
-    return instance.call((bindings) => bindings.autoRadius(handle, x, y, z, { ...settings, memory }));
+    return instance.call((bindings) => bindings.autoRadius(handle, x, y, z, coreOptions(settings)));
   }
 
   /**
@@ -247,6 +247,12 @@ export function hiddenPointRemoval(
   } finally {
     cloud.dispose();
   }
+}
+
+function coreOptions(settings: ViewSettings): CoreOptions {
+  const memory = (length: number) => new Uint32Array(length);
+  // The types of the glue are those of its last build.
+  return { ...coreNumbers(settings), memory } as object as CoreOptions;
 }
 
 /** Refuses the rules that ask for more than one hull. */

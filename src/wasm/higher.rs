@@ -49,7 +49,7 @@ pub fn auto_radius(
     viewpoint: &Float64Array,
     options: &ViewOptions,
 ) -> Result<JsValue, JsValue> {
-    let rule = options.read_radius();
+    let rule = options.read().radius;
     chosen(with_hyper(handle, |cloud| {
         cloud.auto_radius(&numbers(viewpoint)?, rule)
     }))

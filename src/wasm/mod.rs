@@ -58,19 +58,9 @@ export function __wbg_set_wasm(exports: WebAssembly.Exports): void;
 interface CloudOptions { skipNonFinite: boolean; progress?: ((share: number) => void) | undefined }
 interface CloudSize { length: number; skipped: number; spacing: number }
 interface CloudInfo extends CloudSize { handle: number }
-/** ViewSettings of options.ts. */
 interface ViewOptions {
-  rule: number;
-  size: number;
-  kernel: number;
-  parameter: number;
-  denoise: number;
-  vote: number;
-  scores: boolean;
-  draft: boolean;
-  sample: number;
-  /** The distance, and the lowest and highest coordinates. Infinity stands for none. */
-  within?: Float64Array | undefined;
+  /** As coreNumbers of view-options.ts lists them. */
+  numbers: Float64Array;
   mask?: Uint8Array | undefined;
   /** Makes room for so many indices of an answer. */
   memory: (length: number) => Uint32Array<ArrayBuffer>;

@@ -8,33 +8,12 @@ use crate::{Exponential, Inversion, Options, Radius, Within};
 
 #[wasm_bindgen]
 extern "C" {
-    /// Read field by field, without serde: its messages about wrong types bring the formatting of
-    /// floats, 30 kB. Numbers stand for the choices (src/ts/query/view-options.ts).
+    /// Without serde: its messages about wrong types bring the formatting of floats, 30 kB.
     #[wasm_bindgen(typescript_type = "ViewOptions")]
     pub type ViewOptions;
+    /// Numbers stand for the choices (`coreOptions` in src/ts/query/view-options.ts).
     #[wasm_bindgen(method, getter)]
-    fn rule(this: &ViewOptions) -> f64;
-    #[wasm_bindgen(method, getter)]
-    fn size(this: &ViewOptions) -> f64;
-    #[wasm_bindgen(method, getter)]
-    fn kernel(this: &ViewOptions) -> f64;
-    #[wasm_bindgen(method, getter)]
-    fn parameter(this: &ViewOptions) -> f64;
-    #[wasm_bindgen(method, getter)]
-    fn denoise(this: &ViewOptions) -> f64;
-    #[wasm_bindgen(method, getter)]
-    fn vote(this: &ViewOptions) -> f64;
-    #[wasm_bindgen(method, getter)]
-    fn scores(this: &ViewOptions) -> bool;
-    #[wasm_bindgen(method, getter)]
-    fn thickness(this: &ViewOptions) -> f64;
-    #[wasm_bindgen(method, getter)]
-    fn draft(this: &ViewOptions) -> bool;
-    #[wasm_bindgen(method, getter)]
-    fn sample(this: &ViewOptions) -> f64;
-    /// The distance and the box of the option `within`, seven numbers. Infinity stands for none.
-    #[wasm_bindgen(method, getter)]
-    fn within(this: &ViewOptions) -> Option<Float64Array>;
+    fn numbers(this: &ViewOptions) -> Float64Array;
     #[wasm_bindgen(method, getter)]
     pub(super) fn mask(this: &ViewOptions) -> Option<Uint8Array>;
     /// JavaScript makes the arrays of an answer. It can reuse memory, and a refused allocation
@@ -45,15 +24,32 @@ extern "C" {
 
 impl ViewOptions {
     pub(super) fn read(&self) -> Options {
-        // Conversions saturate. 0 stands for no option; JavaScript refuses a 0 of the caller.
-        let number = |k: f64| (k > 0.0).then_some(k as usize);
+        let mut numbers = [0.0; 17];
+        self.numbers().copy_to(&mut numbers);
+        let [rule, size, kernel, parameter, others @ ..] = numbers;
+        let [
+            denoise,
+            vote,
+            scores,
+            thickness,
+            draft,
+            sample,
+            distance,
+            bounds @ ..,
+        ] = others;
         let operator = Options {
-            radius: self.read_radius(),
-            inversion: match self.kernel() as u32 {
-                1 => Inversion::Power(self.parameter()),
+            radius: match rule as u32 {
+                1 => Radius::Search,
+                2 => Radius::Opposite,
+                3 => Radius::Absolute(size),
+                4 => Radius::Exponent(size),
+                _ => Radius::Auto,
+            },
+            inversion: match kernel as u32 {
+                1 => Inversion::Power(parameter),
                 2 => Inversion::Exponential(Exponential::Auto),
-                3 => Inversion::Exponential(Exponential::Scale(self.parameter())),
-                4 => Inversion::Looks(self.parameter() as usize),
+                3 => Inversion::Exponential(Exponential::Scale(parameter)),
+                4 => Inversion::Looks(parameter as usize),
                 _ => Inversion::Spherical,
             },
             ..Options::default()
@@ -61,36 +57,25 @@ impl ViewOptions {
         if !FULL {
             return operator;
         }
+        // Conversions saturate. 0 stands for no option; JavaScript refuses a 0 of the caller.
+        let number = |k: f64| (k > 0.0).then_some(k as usize);
+        let [a, b, c, d, e, f] = bounds;
+        let bounds = [[a, b, c], [d, e, f]];
+        let is_bounded = bounds != [[f64::NEG_INFINITY; 3], [f64::INFINITY; 3]];
+        let within = Within {
+            distance: Some(distance).filter(|distance| *distance != f64::INFINITY),
+            bounds: Some(bounds).filter(|_| is_bounded),
+        };
         Options {
-            denoise: number(self.denoise()),
-            vote: number(self.vote()),
-            scores: self.scores(),
+            denoise: number(denoise),
+            vote: number(vote),
+            scores: scores != 0.0,
             // A negative number stands for none.
-            thickness: Some(self.thickness()).filter(|thickness| *thickness >= 0.0),
-            draft: self.draft(),
-            sample: number(self.sample()),
-            within: self.within().map(|given| {
-                let mut numbers = [0.0; 7];
-                given.copy_to(&mut numbers);
-                let [distance, a, b, c, d, e, f] = numbers;
-                let bounds = [[a, b, c], [d, e, f]];
-                let is_bounded = bounds != [[f64::NEG_INFINITY; 3], [f64::INFINITY; 3]];
-                Within {
-                    distance: Some(distance).filter(|distance| *distance != f64::INFINITY),
-                    bounds: Some(bounds).filter(|_| is_bounded),
-                }
-            }),
+            thickness: Some(thickness).filter(|thickness| *thickness >= 0.0),
+            draft: draft != 0.0,
+            sample: number(sample),
+            within: Some(within).filter(|within| *within != Within::default()),
             ..operator
-        }
-    }
-
-    pub(super) fn read_radius(&self) -> Radius {
-        match self.rule() as u32 {
-            1 => Radius::Search,
-            2 => Radius::Opposite,
-            3 => Radius::Absolute(self.size()),
-            4 => Radius::Exponent(self.size()),
-            _ => Radius::Auto,
         }
     }
 }

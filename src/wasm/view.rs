@@ -54,7 +54,7 @@ pub fn auto_radius(
     z: f64,
     options: &ViewOptions,
 ) -> Result<JsValue, JsValue> {
-    let rule = options.read_radius();
+    let rule = options.read().radius;
     chosen(with_cloud(handle, |cloud| {
         cloud.auto_radius([x, y, z], rule)
     }))

@@ -56,10 +56,8 @@ pub fn project(
     indices: &Uint32Array,
     target: &Float32Array,
 ) -> Result<(), JsValue> {
-    let mut numbers = [0.0; 35];
-    camera.copy_to(&mut numbers);
     let shown = with_cloud(handle, |cloud| {
-        cloud.shown(&Camera::of(&numbers), &copy_in_integers(indices)?)
+        cloud.shown(&read(camera), &copy_in_integers(indices)?)
     })?;
     target.copy_from(shown.as_flattened());
     Ok(())
@@ -68,19 +66,22 @@ pub fn project(
 /// Checks a camera. Returns its place.
 #[wasm_bindgen(js_name = cameraPlace)]
 pub fn camera_place(camera: &Float64Array) -> Result<Float64Array, JsValue> {
-    let mut numbers = [0.0; 35];
-    camera.copy_to(&mut numbers);
-    let camera = Camera::of(&numbers);
+    let camera = read(camera);
     camera.lens()?;
     Ok(Float64Array::from(camera.position().as_slice()))
+}
+
+#[inline(never)]
+fn read(camera: &Float64Array) -> Camera {
+    let mut numbers = [0.0; 35];
+    camera.copy_to(&mut numbers);
+    Camera::of(&numbers)
 }
 
 /// Whether the pose of a camera was probably given the wrong way round.
 #[wasm_bindgen(js_name = seemsInverted)]
 pub fn seems_inverted(handle: u32, camera: &Float64Array) -> Result<bool, JsValue> {
-    let mut numbers = [0.0; 35];
-    camera.copy_to(&mut numbers);
-    let camera = Camera::of(&numbers);
+    let camera = read(camera);
     with_cloud(handle, |cloud| cloud.seems_inverted(&camera))
 }
 

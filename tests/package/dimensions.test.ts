@@ -51,7 +51,7 @@ describe("refusals", () => {
     ["viewpoint", /2 numbers.*3 of them/, () => plane.visibleFrom([0, 0, 5])],
     ["viewpoint", /NaN/, () => plane.visibleFrom([0, NaN])],
     ["viewpoint", /4 numbers.*3 of them/, () => hyper.visibleFrom([0, 0, 5])],
-    ["viewpoint", /4 finite/, () => hyper.visibleFrom([0, 0, 5, NaN])],
+    ["viewpoint", /must be finite/, () => hyper.visibleFrom([0, 0, 5, NaN])],
     ["viewpoint", /viewpoints\[1\].*2 numbers/, () => plane.visibleFromAny([[0, 0], [0]])],
     [
       "option",

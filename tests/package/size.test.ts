@@ -19,13 +19,14 @@ import { liteBytes, wasmBytes } from "./support";
 // Values above 16 bytes that are copied by one instruction save 11 kB (one copy takes 6 ns, so hot loops copy number by number).
 // Objects made by one function of names and values, refusals made into objects at once, and memories of views made by one function save 2.8 kB.
 // Talc as the allocator saves 2.4 kB, 2^x by pow 3 kB (the table of exp2), the same alignment everywhere 0.6 kB, cleared messages of the standard library 0.9 kB.
+// The messages of refusals cost 0.3 kB, and 0.45 kB in the small one; they save as much of JavaScript, or more.
 it("the wasm stays small", () => {
   const bytes = wasmBytes();
-  expect(bytes.length).toBeLessThanOrEqual(289_900);
-  expect(gzipSync(bytes, { level: 9 }).length).toBeLessThanOrEqual(132_600);
+  expect(bytes.length).toBeLessThanOrEqual(290_000);
+  expect(gzipSync(bytes, { level: 9 }).length).toBeLessThanOrEqual(132_800);
 });
 
-// What of the crate it leaves out stands in src/base/build.rs and src/wasm/mod.rs. It has 42,443 bytes.
-it("the wasm of the operator alone stays at most 42.6 kB, gzipped", () => {
-  expect(gzipSync(liteBytes(), { level: 9 }).length).toBeLessThanOrEqual(42_600);
+// What of the crate it leaves out stands in src/base/build.rs and src/wasm/mod.rs. It has 42,888 bytes.
+it("the wasm of the operator alone stays at most 42.9 kB, gzipped", () => {
+  expect(gzipSync(liteBytes(), { level: 9 }).length).toBeLessThanOrEqual(42_900);
 });

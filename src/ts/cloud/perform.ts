@@ -2,10 +2,11 @@ import type { Answers, Found } from "../query/answers.js";
 import { HprError, naming } from "../base/errors.js";
 import type { Bindings, Instance } from "../instance/instance.js";
 import { allocating } from "../base/memory.js";
+import type { CoreOptions } from "./held-cloud.js";
 import type { Query, QueryKind } from "../query/queries.js";
 import { newCounts, viewFrom } from "../query/surveys.js";
 import { roomIn, type Spares } from "./spares.js";
-import { resolvedInversion, type ViewSettings } from "../query/view-options.js";
+import { coreNumbers, resolvedInversion, type ViewSettings } from "../query/view-options.js";
 
 /** A cloud in the memory of an instance. */
 interface Target {
@@ -183,14 +184,15 @@ export function perform<K extends QueryKind>(target: Target, query: Query<K>): A
 }
 
 /** A view's settings as the core reads them. The core calls `memory` for its arrays, first for the indices. */
-export function coreOptions(settings: ViewSettings, spares?: Spares) {
+export function coreOptions(settings: ViewSettings, spares?: Spares): CoreOptions {
   let left = spares;
   const memory = (length: number) => {
     const spare = left?.take();
     left = undefined;
     return roomIn(spare, length);
   };
-  return { ...settings, memory };
+  // The types of the glue are those of its last build.
+  return { ...coreNumbers(settings), memory } as object as CoreOptions;
 }
 
 function found({ length }: Target, settings: ViewSettings, answer: CoreAnswer): Found {

@@ -1,6 +1,6 @@
 import { Matrix4, type Object3D, type Points } from "three";
 
-import { nonFinite } from "../instance/failure.js";
+import { HprError } from "../base/errors.js";
 import { versionOf } from "../three/attribute.js";
 import { Display } from "../three/display.js";
 import { isFiltered, requireUnfiltered } from "../three/drawn-points.js";
@@ -106,5 +106,8 @@ function requireFinite(numbers: Float32Array | Float64Array): void {
   const strays = new Set<number>();
   numbers.forEach((x, i) => Number.isFinite(x) || strays.add(Math.floor(i / 3)));
   const [first] = strays;
-  if (first !== undefined) throw nonFinite(strays.size, first);
+  if (first !== undefined) {
+    const message = `${strays.size} point(s) have a coordinate that is NaN or infinite, the first at index ${first}`;
+    throw new HprError("non-finite", message);
+  }
 }

@@ -107,7 +107,7 @@ export interface VisibilityOptions {
   within?: Within | undefined;
 }
 
-/** {@link VisibilityOptions}, checked for type, as the core reads them (src/wasm/options.rs). */
+/** {@link VisibilityOptions}, checked for type. */
 export interface ViewSettings extends WithinSettings {
   /** A number of {@link Rule}. */
   rule: number;
@@ -177,6 +177,13 @@ export const NO_OPTIONS: ViewSettings = {
   sample: 0,
   ...ALL_POINTS,
 };
+
+/** The settings as the core reads them (src/wasm/options.rs). */
+export function coreNumbers({ within, mask, ...settings }: ViewSettings) {
+  const { rule, size, kernel, parameter, denoise, vote, scores, thickness, draft, sample } = settings;
+  const numbers = [rule, size, kernel, parameter, denoise, vote, Number(scores), thickness, Number(draft), sample];
+  return { numbers: Float64Array.of(...numbers, ...within), mask };
+}
 
 /** The rule of `autoRadius`, as settings. */
 export function ruleSettings(rule: unknown): ViewSettings {

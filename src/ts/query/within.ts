@@ -19,11 +19,11 @@ export interface Within {
 /** {@link Within}, checked for type, as the core reads it. */
 export interface WithinSettings {
   /** The distance, and the lowest and the highest coordinates. Infinity stands for none. */
-  within: Float64Array<ArrayBuffer> | undefined;
+  within: readonly number[];
   mask: Uint8Array<ArrayBuffer> | undefined;
 }
 
-export const ALL_POINTS: WithinSettings = { within: undefined, mask: undefined };
+export const ALL_POINTS: WithinSettings = { within: numbers(), mask: undefined };
 
 /** Reads the option `within`. The core checks the ranges. */
 export function withinSettings(within: unknown, dimension: number): WithinSettings {
@@ -37,16 +37,15 @@ export function withinSettings(within: unknown, dimension: number): WithinSettin
   const distance = number(given, "distance");
   const { box, mask } = given;
   return {
-    within: distance === undefined && box === undefined ? undefined : numbers(distance, box, dimension),
+    within: numbers(distance, box === undefined ? undefined : readBox(box, dimension)),
     mask: mask === undefined ? undefined : readMask(mask),
   };
 }
 
-function numbers(distance: number | undefined, box: unknown, dimension: number): Float64Array<ArrayBuffer> {
-  const { min, max } = box === undefined ? { min: [], max: [] } : readBox(box, dimension);
+function numbers(distance = Infinity, { min, max }: { min: number[]; max: number[] } = { min: [], max: [] }): number[] {
   // A missing coordinate, also the z of a plane, has no limit.
   const fill = (corner: number[], limit: number) => [0, 1, 2].map((axis) => corner[axis] ?? limit);
-  return Float64Array.of(distance ?? Infinity, ...fill(min, -Infinity), ...fill(max, Infinity));
+  return [distance, ...fill(min, -Infinity), ...fill(max, Infinity)];
 }
 
 function readBox(box: unknown, dimension: number): { min: number[]; max: number[] } {
