@@ -166,14 +166,14 @@ function between(places: readonly Frame[], step: number): number {
 }
 
 const TURNS = [
-  { count: 1_000_000, degrees: 2, looks: 0 },
-  { count: 1_000_000, degrees: 10, looks: 3 },
-  { count: 5_000_000, degrees: 10, looks: 0 },
+  { count: 1_000_000, looks: 0 },
+  { count: 1_000_000, looks: 3 },
+  { count: 5_000_000, looks: 0 },
 ] as const;
 
 test.runIf(process.env["HPR_SOAK"] === "1").each(TURNS)(
-  "each map of a turn around $count points hides no point that its answer shows, looks $looks",
-  async ({ count, degrees, looks }) => {
+  "each map of a turn around $count points hides no point that its answer shows (looks: $looks)",
+  async ({ count, looks }) => {
     const positions = bumpySurface(count, 4);
     served.set("cloud.ply", binaryPly(positions, "float", true));
     const small = { viewport: { width: 600, height: 400 } };
@@ -183,14 +183,14 @@ test.runIf(process.env["HPR_SOAK"] === "1").each(TURNS)(
     await page.mouse.move(x, y);
     await page.mouse.down();
     const judged = [];
-    for (let angle = degrees; angle <= 360; angle += degrees) {
+    for (let angle = 10; angle <= 360; angle += 10) {
       await moveOn(page, () => page.mouse.move(x + (box.height / 360) * angle, y));
       judged.push(...(await judgeMaps(page, positions, looks === 0 ? {} : { looks })));
     }
     const wrong = Math.max(...judged.map((map) => map.wrong));
     const found = judged.map((map) => map.found);
     console.log({ count, looks, maps: judged.length, wrong, least: Math.min(...found) });
-    expect(judged.length).toBeGreaterThan(300 / degrees);
+    expect(judged.length).toBeGreaterThan(30);
     expect(wrong).toBeLessThanOrEqual(looks === 0 ? 0 : 0.01);
   },
   3_600_000,
