@@ -48,5 +48,5 @@ pub(crate) use outer_boundary::{
     complete, go_on, mark_draft, mark_sector, mark_visible, triangulate_visible, visible_once,
 };
 pub(crate) use outer_faces::{Exit, OuterFaces};
-pub(crate) use reaches::Reaches;
+pub(crate) use reaches::{Reaches, Side, grid};
 pub(crate) use topology::{FaceId, Vertex};

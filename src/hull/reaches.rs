@@ -100,37 +100,29 @@ impl Memory {
                     continue;
                 }
                 // A face that reaches behind a side is left out there.
-                let ahead = corners.map(|q| place_on(side, q));
+                let ahead = corners.map(|q| reaches.place_on(side, q));
                 if let [Some(a), Some(b), Some(c)] = ahead {
-                    let places = [a, b, c].map(|place| reaches.in_cells(side, place));
-                    reaches.fill(side, places, id, &face.data);
+                    reaches.fill(side, [a, b, c], id, &face.data);
                 }
             }
         }
     }
 }
 
-/// (x, y) on a given side of the cube; `None` behind it.
-fn place_on(side: usize, q: DVec3) -> Option<[f64; 2]> {
-    let (x, y, z) = turned(side, q);
-    let inverse = 1.0 / z;
-    (z > 0.0).then_some([x * inverse, y * inverse])
-}
-
-/// The extent of the faces on a side of the cube.
+/// The extent of some places on a side of the cube.
 #[derive(Clone, Copy)]
-struct Side {
+pub(crate) struct Side {
     low: [f64; 2],
     high: [f64; 2],
 }
 
 impl Side {
-    const NONE: Self = Self {
+    pub(crate) const NONE: Self = Self {
         low: [f64::INFINITY; 2],
         high: [f64::NEG_INFINITY; 2],
     };
 
-    fn include(&mut self, place: [f64; 2]) {
+    pub(crate) fn include(&mut self, place: [f64; 2]) {
         for axis in 0..2 {
             // Near an edge of the cube faces go on to the next side.
             let x = match place[axis] {
@@ -145,7 +137,7 @@ impl Side {
 }
 
 /// Windows with square cells of one size, and at most `count` corners in all.
-fn grid(sides: &[Side; 6], count: usize) -> Option<([Window; 6], f64)> {
+pub(crate) fn grid(sides: &[Side; 6], count: usize) -> Option<([Window; 6], f64)> {
     let area: f64 = sides
         .iter()
         .filter(|side| side.low[0] <= side.high[0])
@@ -196,6 +188,13 @@ impl Reaches {
         [(x - left), (y - low)].map(|x| x * self.cells_per_unit)
     }
 
+    /// The same for a point on a given side; `None` behind it.
+    fn place_on(&self, side: usize, q: DVec3) -> Option<[f64; 2]> {
+        let (x, y, z) = turned(side, q);
+        let inverse = 1.0 / z;
+        (z > 0.0).then(|| self.in_cells(side, [x * inverse, y * inverse]))
+    }
+
     /// Writes a face at each corner that is certainly inside it.
     #[inline]
     fn fill(&mut self, side: usize, places: Places, id: FaceId, plane: &Plane) {
@@ -226,8 +225,8 @@ impl Reaches {
         plane: &Plane,
     ) {
         let window = self.windows[side];
-        let turn = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
-        if turn < 0.0 {
+        // Faces are counter-clockwise. Three sides of the cube are mirrored.
+        if side % 2 == 1 {
             core::mem::swap(&mut b, &mut c);
         }
         // A bound of the error of a comparison: places and corners are rounded by some units, and products reach over the

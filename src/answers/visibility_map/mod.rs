@@ -17,7 +17,7 @@ mod surface;
 use crate::answers::looks::{Depth, look_of_map, looked_at};
 use crate::answers::memory::ViewMemory;
 use crate::base::error::Error;
-use crate::base::real::square_root;
+use crate::base::real::{larger, square_root};
 use crate::cloud::neighbors::distance_squared;
 use crate::cloud::point_cloud::PointCloud;
 use crate::cloud::points::Points;
@@ -174,11 +174,11 @@ impl PointCloud {
 /// How far a point of `part` is at most from its place in `chosen`.
 fn displacement(chosen: &PointCloud, part: &PointCloud) -> Result<f64, Error> {
     let places = chosen.places()?;
-    let mut most = 0.0f64;
+    let mut most = 0.0;
     for (place, point) in part.sequence.points.iter().enumerate() {
         for &index in part.sequence.indices_of(place) {
             let before = chosen.sequence.points.get(places[index as usize] as usize);
-            most = most.max(distance_squared(before, point));
+            most = larger(most, distance_squared(before, point));
         }
     }
     Ok(square_root(most) * (1.0 + 1e-12))

@@ -12,7 +12,7 @@ use crate::answers::visibility_map::options::MapOptions;
 use crate::base::allocation::{OutOfMemory, filled, push, with_capacity};
 use crate::base::real::{larger, sine_cosine, smaller, square_root};
 use crate::cloud::points::Points;
-use crate::hull::{Memory, Window, place};
+use crate::hull::{Memory, Side, Window, grid, place};
 use crate::view::resolved::normalized;
 
 /// The most points of a pool for each point of a map.
@@ -109,7 +109,7 @@ impl Pool {
             // No more cells than there are points to be in them.
             let most = map.points.min(self.points.len());
             let count = smaller(larger(count, few as f64), most as f64);
-            let grid = Grid::new(&sample.extents, count * sample.empty);
+            let grid = Grid::new(&sample.sides, count * sample.empty);
             let nearest = self.nearest(&eye, &grid)?;
             for nearest in nearest.into_iter().filter(|&nearest| nearest < u64::MAX) {
                 is_chosen[nearest as u32 as usize] = true;
@@ -164,7 +164,7 @@ impl Eye {
 
 /// What a few places of points show: the side of the cube, the place there, and the square of the distance.
 struct Sample {
-    extents: Extents,
+    sides: [Side; 6],
     /// How many of them are about as near as the nearest one beside them.
     near: usize,
     /// How far the others lie behind it, in the mean.
@@ -178,25 +178,25 @@ struct Sample {
 impl Sample {
     fn of(places: impl Iterator<Item = (usize, [f64; 2], f32)>) -> Result<Self, OutOfMemory> {
         let mut all = Vec::new();
-        let mut extents = [[[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]]; 6];
+        let mut sides = [Side::NONE; 6];
         for (side, at, squared) in places {
             push(&mut all, (side, at, squared))?;
-            let [low, high] = &mut extents[side];
-            for axis in 0..2 {
-                low[axis] = smaller(low[axis], at[axis]);
-                high[axis] = larger(high[axis], at[axis]);
-            }
+            sides[side].include(at);
         }
-        let grid = Grid::new(&extents, all.len() as f64 / 4.0);
+        let grid = Grid::new(&sides, all.len() as f64 / 4.0);
         let mut nearest = filled(grid.cells, f32::INFINITY)?;
-        for &(side, at, squared) in &all {
-            let nearest = &mut nearest[grid.cell(side, at)];
-            *nearest = nearest.min(squared);
+        for (side, at, squared) in &mut all {
+            // From here on, its cell.
+            *side = grid.cell(*side, *at);
+            let nearest = &mut nearest[*side];
+            if *squared < *nearest {
+                *nearest = *squared;
+            }
         }
         let same = (1.0 + 4.0 / grid.cells_per_unit) as f32;
         let (mut near, mut depth) = (0, 0.0);
-        for &(side, at, squared) in &all {
-            let nearest = nearest[grid.cell(side, at)];
+        for &(cell, _, squared) in &all {
+            let nearest = nearest[cell];
             if squared < nearest * same {
                 near += 1;
             } else {
@@ -205,7 +205,7 @@ impl Sample {
         }
         let used = nearest.iter().filter(|&&x| x < f32::INFINITY).count();
         Ok(Self {
-            extents,
+            sides,
             near,
             depth: depth / (all.len() - near).max(1) as f64,
             area: used as f64 / (grid.cells_per_unit * grid.cells_per_unit),
@@ -214,10 +214,8 @@ impl Sample {
     }
 }
 
-/// The low and the high ends of places on the six sides.
-type Extents = [[[f64; 2]; 2]; 6];
-
-/// Square cells on the sides of a cube around the viewpoint. Directions beyond a window belong to its outermost cells.
+/// Square cells on the sides of a cube around the viewpoint: one for each corner of its windows, and the last one for the
+/// other sides.
 struct Grid {
     windows: [Window; 6],
     cells_per_unit: f64,
@@ -225,49 +223,27 @@ struct Grid {
 }
 
 impl Grid {
-    /// About `count` cells.
-    fn new(extents: &Extents, count: f64) -> Self {
-        let sizes = extents.map(|[low, high]| [high[0] - low[0], high[1] - low[1]]);
-        let area: f64 = (sizes.iter().filter(|size| size[0] >= 0.0))
-            .map(|size| size[0] * size[1])
-            .sum();
-        // At most two cells for each that is asked, also along a line.
-        let longest = (sizes.iter().flatten()).fold(0.0, |most, &size| larger(most, size));
-        let cells_per_unit = smaller(
-            square_root(count / larger(area, 1e-30)),
-            count / larger(longest, 1e-30),
-        );
-        let mut grid = Self {
-            windows: Default::default(),
+    /// At most about `count` cells.
+    fn new(sides: &[Side; 6], count: f64) -> Self {
+        let (windows, cells_per_unit) = grid(sides, count as usize).unwrap_or_default();
+        Self {
+            windows,
             cells_per_unit,
-            cells: 0,
-        };
-        for ((window, size), [low, _]) in grid.windows.iter_mut().zip(sizes).zip(extents) {
-            if size[0] >= 0.0 {
-                *window = Window {
-                    x: low[0],
-                    y: low[1],
-                    columns: (size[0] * cells_per_unit) as usize + 1,
-                    rows: (size[1] * cells_per_unit) as usize + 1,
-                    first: grid.cells,
-                };
-                grid.cells += window.columns * window.rows;
-            }
+            cells: windows.iter().map(Window::corners).sum::<usize>() + 1,
         }
-        grid.cells += 1;
-        grid
     }
 
+    /// Directions beyond a window belong to its outermost cells.
     #[inline]
     fn cell(&self, side: usize, [x, y]: [f64; 2]) -> usize {
         let window = &self.windows[side];
-        // A side that the sample does not reach has one cell, the last one.
         if window.columns == 0 {
             return self.cells - 1;
         }
         let column = ((x - window.x) * self.cells_per_unit) as u32 as usize;
         let row = ((y - window.y) * self.cells_per_unit) as u32 as usize;
-        window.first + row.min(window.rows - 1) * window.columns + column.min(window.columns - 1)
+        let across = window.columns + 1;
+        window.first + row.min(window.rows) * across + column.min(window.columns)
     }
 }
 

@@ -98,13 +98,16 @@ fn spread(windows: &[Window; 6], distances: &mut [f32]) -> Result<(), OutOfMemor
         let before = &before[corners.clone()];
         let across = window.columns + 1;
         for (at, distance) in distances[corners].iter_mut().enumerate() {
-            let own = *distance;
+            // Positive numbers are in the order of their bits. No processor can guess a branch here.
+            let mut most = distance.to_bits();
             // Beyond the end of a row comes another one: a border may hide less.
             let (left, below) = (at.wrapping_sub(1), at.wrapping_sub(across));
             for beside in [left, at + 1, below, at + across] {
-                let other = before.get(beside).map_or(own, |&other| other);
-                *distance = distance.max(own + (other - own) * BESIDE);
+                most = before
+                    .get(beside)
+                    .map_or(most, |other| most.max(other.to_bits()));
             }
+            *distance += (f32::from_bits(most) - *distance) * BESIDE;
         }
     }
     Ok(())
@@ -143,7 +146,10 @@ fn widen(reaches: &Reaches, aside: f64, distances: &mut [f32]) -> Result<(), Out
                 let narrow = copied(&wider)?;
                 for (at, widest) in wider.iter_mut().enumerate() {
                     for beside in [at.wrapping_sub(by), at + by] {
-                        *widest = widest.max(narrow.get(beside).map_or(*widest, |&other| other));
+                        let other = narrow.get(beside).copied().unwrap_or(0.0);
+                        if other > *widest {
+                            *widest = other;
+                        }
                     }
                 }
             }
