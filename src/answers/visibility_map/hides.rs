@@ -163,8 +163,8 @@ impl VisibilityMap {
         // The root in double precision, rounded once more, is the correctly rounded one.
         let root = square_root(f64::from(x * x + y * y + 1.0)) as f32;
         let length = z.abs() * root;
-        // A cell with an unknown corner hides nothing, however far away.
-        let is_known = most < MOST as f32;
+        // A cell with an unknown corner hides nothing, however far away. An infinite coordinate has no direction.
+        let is_known = most < MOST as f32 && length < f32::INFINITY;
         Some(is_known && length * (1.0 - 8e-6) - self.numbers[3] > limit)
     }
 }

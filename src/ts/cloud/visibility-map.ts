@@ -156,5 +156,5 @@ function hides(
   const limit = fround(fround(mix(mix(p, q, s), mix(m, n, s), t) + range) + fround(most * fround(4e-6)));
   const squared = fround(fround(fround(x * x) + fround(y * y)) + 1);
   const length = fround(Math.abs(w) * fround(Math.sqrt(squared)));
-  return most < 1e30 && fround(fround(length * fround(1 - 8e-6)) - error) > limit;
+  return most < 1e30 && length < Infinity && fround(fround(length * fround(1 - 8e-6)) - error) > limit;
 }
