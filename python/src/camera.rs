@@ -126,30 +126,3 @@ fn matrix(value: &Bound<'_, PyAny>) -> Option<[f64; 16]> {
     let is_square = rows.len() == 4 && rows.iter().all(|row| row.len() == 4);
     is_square.then(|| core::array::from_fn(|at| rows[at % 4][at / 4]))
 }
-
-/// How much wider the image of a distorted lens may be.
-const DISTORTED: f64 = 1.3;
-
-/// The cone around a camera's image: its axis, and its full opening in degrees.
-pub fn cone(camera: &Camera) -> ([f64; 3], f64) {
-    let half = |size: f64, middle: f64, focal: f64| middle.abs().max((size - middle).abs()) / focal;
-    let wide =
-        half(camera.width, camera.cx, camera.fx).hypot(half(camera.height, camera.cy, camera.fy));
-    let bends = ["FISHEYE", "FOV"]
-        .iter()
-        .any(|word| camera.model.name().contains(word));
-    let is_plain = camera.distortion == [0.0; 8];
-    let angle = if bends {
-        180.0
-    } else {
-        (2.0 * (if is_plain { wide } else { wide * DISTORTED }).atan()).to_degrees()
-    };
-    let ahead = match camera.pose {
-        Pose::CameraToWorld(matrix) => [8, 9, 10].map(|at| matrix[at]),
-        Pose::WorldToCamera(matrix) => [2, 6, 10].map(|at| matrix[at]),
-    };
-    match camera.convention {
-        Convention::OpenGl => (ahead.map(|x| -x), angle),
-        _ => (ahead, angle),
-    }
-}

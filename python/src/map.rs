@@ -8,7 +8,7 @@ use pyo3::types::PyDict;
 
 use crate::arrays::{Points, Positions, place};
 use crate::camera;
-use crate::failure::option;
+use crate::failure::{option, refused};
 use crate::options::{count, number, shown};
 
 /// A map of directions around a viewpoint. It tells which points are certainly hidden: here, or in a shader.
@@ -113,7 +113,7 @@ fn cone(towards: &Bound<'_, PyAny>) -> PyResult<([f64; 3], f64)> {
     };
     let entries = towards.cast::<PyDict>().map_err(|_| wrong())?;
     match (entries.get_item("direction")?, entries.get_item("angle")?) {
-        (None, None) => Ok(camera::cone(&camera::read(towards, "towards")?)),
+        (None, None) => camera::read(towards, "towards")?.cone().map_err(|error| refused(py, error)),
         (Some(direction), Some(angle)) if entries.len() == 2 => {
             let angle = number(&angle).ok_or_else(wrong)?;
             Ok((place(&direction, "direction")?, angle))

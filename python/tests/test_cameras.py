@@ -210,6 +210,7 @@ IMAGE = np.zeros((48, 64))
         ("option", "corners", lambda: CLOUD.visibility_map(VIEWPOINT, corners=0)),
         ("option", "towards", lambda: CLOUD.visibility_map(VIEWPOINT, towards=7)),
         ("option", "towards", lambda: CLOUD.visibility_map(VIEWPOINT, towards={"direction": [0, 0, 1]})),
+        ("viewpoint", "fx", lambda: CLOUD.visibility_map(VIEWPOINT, towards={**camera(VIEWPOINT), "fx": 0.0})),
         ("option", "draft", lambda: CLOUD.visibility_map(VIEWPOINT, draft=True)),
         ("viewpoint", "finite", lambda: CLOUD.visibility_map(VIEWPOINT, origin=[0, 0, np.inf])),
         ("positions-length", "positions", lambda: CLOUD.visibility_map(VIEWPOINT).hides([[0, 0]])),

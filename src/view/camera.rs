@@ -3,6 +3,7 @@
 use glam::{DMat3, DVec3};
 
 use crate::base::error::Error;
+use crate::base::real::{larger, square_root};
 use crate::view::distortion::{CameraModel, Distortion};
 
 /// The axes of a camera.
@@ -167,6 +168,28 @@ impl Camera {
         self.lens().map(|_| ())
     }
 
+    /// The cone around the camera's image, for [`MapOptions::towards`](crate::MapOptions::towards): its axis, and its
+    /// full opening in degrees. The image of a strongly distorted lens may reach beyond it.
+    ///
+    /// # Errors
+    /// [`Error::Camera`].
+    pub fn cone(&self) -> Result<([f64; 3], f64), Error> {
+        let lens = self.lens()?;
+        let half = |size: f64, middle: f64, focal: f64| {
+            larger(middle.abs(), (size - middle).abs()) / focal
+        };
+        let across = half(self.width, self.cx, self.fx);
+        let down = half(self.height, self.cy, self.fy);
+        let mut wide = square_root(across * across + down * down);
+        if self.distortion != [0.0; 8] {
+            wide *= DISTORTED;
+        }
+        if lens.distortion.bends() {
+            wide = f64::INFINITY;
+        }
+        Ok((lens.axes[2].to_array(), 2.0 * libm::atan(wide).to_degrees()))
+    }
+
     /// The camera, ready to project points.
     pub(crate) fn lens(&self) -> Result<Lens<'_>, Error> {
         let infinity = f64::INFINITY;
@@ -229,6 +252,9 @@ impl Camera {
         })
     }
 }
+
+/// How much wider the image of a distorted lens may be.
+const DISTORTED: f64 = 1.3;
 
 /// How far a matrix may be from a rigid one. Photos' poses in single precision, written as text, are up to
 /// 1.5e-4 away.

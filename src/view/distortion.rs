@@ -172,6 +172,11 @@ impl Distortion {
         })
     }
 
+    /// Whether the lens may show directions at any angle from its axis.
+    pub(crate) fn bends(&self) -> bool {
+        !matches!(self.bend, Bend::None)
+    }
+
     /// Where the point x, y of the plane at depth 1 appears in that plane. Nowhere if the distortion no
     /// longer grows there.
     pub(crate) fn apply(&self, x: f64, y: f64) -> Option<[f64; 2]> {

@@ -63,12 +63,13 @@ pub fn project(
     Ok(())
 }
 
-/// Checks a camera. Returns its place.
+/// Checks a camera. Returns its place, and the direction and the angle of the cone around its image.
 #[wasm_bindgen(js_name = cameraPlace)]
 pub fn camera_place(camera: &Float64Array) -> Result<Float64Array, JsValue> {
     let camera = read(camera);
-    camera.lens()?;
-    Ok(Float64Array::from(camera.position().as_slice()))
+    let ([a, b, c], angle) = camera.cone()?;
+    let [x, y, z] = camera.position();
+    Ok(Float64Array::from([x, y, z, a, b, c, angle].as_slice()))
 }
 
 #[inline(never)]

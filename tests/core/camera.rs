@@ -52,6 +52,7 @@ fn cameras_that_are_none_are_refused() {
         let refusal = cloud.visible_from_camera(&camera, &Options::default());
         let refusal = refusal.unwrap_err();
         assert_eq!(refusal.code(), "viewpoint");
+        assert_eq!(camera.cone().unwrap_err().to_string(), refusal.to_string());
         refusal.to_string()
     };
     let nan = f64::NAN;
@@ -200,6 +201,35 @@ fn a_rounded_pose_becomes_the_nearest_rotation() {
             // The translation is that of the longer axes.
             let off = position[axis] / exact[12 + axis] - 1.0;
             assert!((off - 0.0003).abs() < 1e-9, "{off}");
+        }
+    }
+}
+
+#[test]
+fn the_cone_of_a_camera_holds_its_image() {
+    let mut rng = Rng::new(8);
+    let points: Vec<[f64; 3]> = (0..4000).map(|_| rng.direction()).collect();
+    let cloud = PointCloud::new(&points).unwrap();
+    for (model, distortion) in LENSES {
+        for convention in [Convention::OpenCv, Convention::OpenGl] {
+            // Of other lenses, the cone is a guess.
+            if distortion != [0.0; 8] && !model.name().contains("FISHEYE") {
+                continue;
+            }
+            let ahead = rng.direction();
+            let camera = Camera {
+                model,
+                distortion,
+                ..camera(&mut rng, [0.0; 3], ahead, convention)
+            };
+            let (axis, angle) = camera.cone().unwrap();
+            let least = (0.5 * angle).to_radians().cos();
+            let seen = cloud.visible_from_camera(&camera, &Options::default());
+            for &index in seen.unwrap().visibility.indices() {
+                let p = points[index as usize];
+                let cosine: f64 = (0..3).map(|i| axis[i] * p[i]).sum();
+                assert!(cosine >= least, "{model:?}, {distortion:?}: {p:?}");
+            }
         }
     }
 }

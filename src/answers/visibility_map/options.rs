@@ -15,7 +15,7 @@ pub struct MapOptions {
     /// How many directions the map has at most: 64 to 2²².
     pub corners: usize,
     /// The only directions that get points and corners: a direction, and the full opening of a cone
-    /// around it, in degrees.
+    /// around it, in degrees. [`Camera::cone`](crate::Camera::cone) gives those of a camera.
     pub towards: Option<([f64; 3], f64)>,
     /// What positions in a shader are relative to. Without a choice it is 0 for a cloud in single
     /// precision, and the middle of the cloud's box otherwise.

@@ -38,7 +38,7 @@ const performers: { [K in QueryKind]: (target: Target, query: Query<K>) => Answe
 
   visibilityMap: ({ instance, handle }, { viewpoint, settings, map, camera }) => {
     const [x, y, z] = viewpoint;
-    if (camera) instance.call((bindings) => bindings.cameraPlace(camera));
+    if (camera) map.set(instance.call((bindings) => bindings.cameraPlace(camera)).subarray(3), 2);
     const options = coreOptions(settings);
     return { ...instance.call((bindings) => bindings.visibilityMap(handle, x, y, z, options, map)), viewpoint };
   },
@@ -95,7 +95,7 @@ const performers: { [K in QueryKind]: (target: Target, query: Query<K>) => Answe
       return shown;
     };
     // The camera is checked first.
-    const viewpoint = [...instance.call((bindings) => bindings.cameraPlace(camera))];
+    const viewpoint = [...instance.call((bindings) => bindings.cameraPlace(camera)).subarray(0, 3)];
     const view = { kind: "visibleFrom" as const, viewpoint, settings, divisible: false };
     const seen = perform(target, sector === undefined ? view : { ...view, sector });
     const inverted = instance.call((bindings) => bindings.seemsInverted(handle, camera));

@@ -149,22 +149,6 @@ function coefficients(whose: string, model: CameraModel, given: unknown): number
   return Array.from({ length: 8 }, (_, i) => own[i] ?? 0);
 }
 
-/** How much wider the image of a distorted lens may be. */
-const DISTORTED = 1.3;
-
-/** The cone around the camera's image: its axis, and its full opening in degrees. */
-export function coneOf(camera: CameraNumbers): [...axis: number[], angle: number] {
-  const at = (i: number) => camera[i]!;
-  const half = (size: number, middle: number, focal: number) =>
-    Math.max(Math.abs(middle), Math.abs(size - middle)) / focal;
-  const wide = Math.hypot(half(at(20), at(18), at(16)), half(at(21), at(19), at(17)));
-  const isPlain = camera.subarray(22, 30).every((k) => k === 0);
-  const bends = /FISHEYE|FOV/.test(Object.keys(CAMERA_MODELS)[at(33)]!);
-  const angle = bends ? Math.PI : 2 * Math.atan(isPlain ? wide : wide * DISTORTED);
-  const forward = (at(34) === 0 ? [8, 9, 10] : [2, 6, 10]).map((i) => (at(32) === 0 ? at(i) : -at(i)));
-  return [...forward, (180 / Math.PI) * angle];
-}
-
 function named(camera: unknown, whose: string): Record<string, unknown> {
   if (typeof camera !== "object" || camera === null) {
     throw new HprError("viewpoint", `the ${whose} must be an object, got ${describe(camera)}`);

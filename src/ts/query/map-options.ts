@@ -1,5 +1,5 @@
 import { describe, HprError, typeTag } from "../base/errors.js";
-import { type Camera, type CameraNumbers, coneOf, isCamera, readCamera } from "./camera.js";
+import { type Camera, type CameraNumbers, isCamera, readCamera } from "./camera.js";
 import { entriesOf, integer, number } from "./options.js";
 import { MOST_POINTS, readViewpoint, type Viewpoint } from "./positions.js";
 import { VIEW_OPTIONS, type VisibilityOptions } from "./view-options.js";
@@ -35,7 +35,7 @@ export const MAP_OPTIONS = [...VIEW_OPTIONS, "points", "corners", "towards", "or
 export interface MapNumbers {
   /** The choices in the order of src/wasm/maps.rs. */
   map: Float64Array<ArrayBuffer>;
-  /** The camera of `towards`, whose ranges the core checks. */
+  /** The camera of `towards`, of which the core makes the cone. */
   camera?: CameraNumbers | undefined;
 }
 
@@ -44,7 +44,7 @@ export function mapNumbers(given: Record<string, unknown>): MapNumbers {
   const corners = integer(given, "corners", 64, 4_194_304) ?? 0;
   const { towards, origin } = given;
   const camera = isCamera(towards) ? readCamera(towards) : undefined;
-  const cone = camera ? coneOf(camera) : towards === undefined ? [0, 0, 0, 0] : readCone(towards);
+  const cone = camera || towards === undefined ? [0, 0, 0, 0] : readCone(towards);
   const place = origin === undefined ? [Infinity, 0, 0] : readViewpoint(origin, 3, "origin");
   return { map: Float64Array.of(points, corners, ...cone, ...place), camera };
 }
