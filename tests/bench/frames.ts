@@ -34,7 +34,7 @@ async function turned(made: Cloud): Promise<Row> {
       if (refinement.due === undefined) return undefined;
       const [asked, begun] = [now, performance.now()];
       return refinement.round(
-        () => cloud.visibilityMap(at(asked)),
+        ({ points }) => cloud.visibilityMap(at(asked), { points }),
         () => {
           times!.push(performance.now() - begun);
           [mapped, maps] = [asked, maps + 1];

@@ -5,6 +5,7 @@ import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 import { HprError } from "../../src/ts/base/errors.js";
 import { type Followed, Follower, type Round } from "../../src/ts/follow/follower.js";
 import { Readiness } from "../../src/ts/follow/readiness.js";
+import { Refinement } from "../../src/ts/follow/refinement.js";
 import { Recovery, type RecoveryTimes } from "../../src/ts/follow/recovery.js";
 
 const LOST = new HprError("internal", "the worker died");
@@ -479,5 +480,31 @@ describe("readiness", () => {
     readiness.reject(LOST, false);
     expect(reject).toHaveBeenCalledExactlyOnceWith(LOST);
     reject.mockRestore();
+  });
+});
+
+describe("maps", () => {
+  it("have as many points as fit into a frame", () => {
+    const refinement = new Refinement<undefined>(() => undefined);
+    /** How many points each map should have, where maps take so many milliseconds. */
+    const points = (...times: number[]) =>
+      times.map((milliseconds) => {
+        refinement.moved([{ kind: "map", options: undefined, rest: 0 }]);
+        const round = refinement.round(
+          (stage) => stage.points,
+          () => undefined,
+        );
+        const asked = round.ask() as number;
+        vi.advanceTimersByTime(milliseconds);
+        round.use(asked);
+        return asked;
+      });
+    const usual = 32_768;
+    // One slow map alone changes nothing.
+    expect(points(80, 14, 80, 14, 80, 5)).toEqual([usual, usual, usual, usual, usual, usual]);
+    expect(points(20, 20, 18, 18, 15, 15)).toEqual([usual, usual, 26_214, 26_214, 20_971, 20_971]);
+    expect(points(...Array<number>(30).fill(90)).at(-1)).toBe(10_000);
+    expect(points(...Array<number>(30).fill(13)).at(-1)).toBe(10_000);
+    expect(points(...Array<number>(30).fill(4)).at(-1)).toBe(usual);
   });
 });

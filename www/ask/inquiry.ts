@@ -231,9 +231,9 @@ export class Inquiry {
 
   #mapRound(): Round {
     return this.#refinement.round(
-      async ({ options: question }) => {
+      async ({ options: question, points }) => {
         const begun = performance.now();
-        const map = await askMap(this.cloud, question);
+        const map = await askMap(this.cloud, question, points);
         this.#freeSince = performance.now();
         this.onMap({ map, viewpoint: question.viewpoint, milliseconds: performance.now() - begun });
         this.#viewFollower.answered();

@@ -19,10 +19,14 @@ export async function askView(cloud: WorkerCloud, question: ViewQuestion, signal
   return { question, visibility: value, note };
 }
 
-/** A map for a viewpoint, with positions relative to the middle of the cloud. */
-export async function askMap(cloud: WorkerCloud, { viewpoint, method }: ViewQuestion): Promise<VisibilityMap> {
+/** A map for a viewpoint, of so many points, with positions relative to the middle of the cloud. */
+export async function askMap(
+  cloud: WorkerCloud,
+  { viewpoint, method }: ViewQuestion,
+  points?: number,
+): Promise<VisibilityMap> {
   const { value } = await orUsual(cloud.options(method), (options) =>
-    cloud.points.visibilityMap(viewpoint, { ...options, origin: cloud.center }),
+    cloud.points.visibilityMap(viewpoint, { ...options, points, origin: cloud.center }),
   );
   return value;
 }

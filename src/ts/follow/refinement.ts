@@ -1,5 +1,6 @@
 import { HprError } from "../base/errors.js";
 import type { Round } from "./follower.js";
+import { Pace } from "./pace.js";
 
 /**
  * What an answer is. `"draft"` holds all visible points and some hidden ones. `"operator"` is the exact
@@ -27,6 +28,8 @@ export interface AskedStage<Options = unknown> extends Stage<Options> {
   readonly signal: AbortSignal;
   /** Whether the view has not moved since the question. */
   readonly isCurrent: () => boolean;
+  /** How many points a map should have, so that each frame gets one. */
+  readonly points: number;
 }
 
 /**
@@ -39,6 +42,7 @@ export interface AskedStage<Options = unknown> extends Stage<Options> {
  */
 export class Refinement<Options = unknown> {
   readonly #wake: () => void;
+  readonly #pace = new Pace();
   #stages: readonly Stage<Options>[] = [];
   #next = 0;
   #isSettled = true;
@@ -104,6 +108,7 @@ export class Refinement<Options = unknown> {
   ): Round<Answer> {
     const stage = this.#take();
     const isLast = this.#next === this.#stages.length;
+    const begun = performance.now();
     return {
       ask: () => {
         try {
@@ -115,6 +120,7 @@ export class Refinement<Options = unknown> {
       },
       use: (answer) => {
         if (isLast) this.#end(stage);
+        if (stage.kind === "map") this.#pace.took(performance.now() - begun);
         return use(answer, stage);
       },
       isGivenUp: (error) => {
@@ -141,7 +147,8 @@ export class Refinement<Options = unknown> {
     const overtaking = new AbortController();
     this.#overtaking = isLater ? overtaking : undefined;
     const begins = this.#begins;
-    return { ...stage, signal: overtaking.signal, isCurrent: () => begins === this.#begins };
+    const isCurrent = () => begins === this.#begins;
+    return { ...stage, signal: overtaking.signal, isCurrent, points: this.#pace.points };
   }
 
   /** Nothing more is asked about this view. If a question was refused, the later ones would be refused, too. */

@@ -16,11 +16,11 @@ export type Seen = Visibility | VisibilityMap;
 export function see(
   cloud: Cloud,
   { from, isDirection }: Place,
-  { kind, options, signal }: AskedStage<VisibilityOptions>,
+  { kind, options, signal, points }: AskedStage<VisibilityOptions>,
 ): Seen | Promise<Seen> {
   const asked = cloud instanceof WorkerPointCloud ? { ...options, signal } : options;
   if (kind === "map") {
-    return cloud.visibilityMap(from, asked);
+    return cloud.visibilityMap(from, { ...asked, points });
   }
   return isDirection ? cloud.visibleFromDirection(from, asked) : cloud.visibleFrom(from, asked);
 }
