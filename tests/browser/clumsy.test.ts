@@ -109,17 +109,20 @@ test("Unfreeze looks at the present cloud, and not at the place where another on
   expect([address.get("freeze"), address.get("view"), address.get("target")]).toEqual([null, null, null]);
 });
 
-test("who clicks before the first picture is there sees it still, divided in the middle", async () => {
-  serveSmallDragon();
-  const page = await openPage("", { reducedMotion: "no-preference" }, async (opened) => {
-    await withoutTools(opened);
-    await opened.route("**/samples/*", async (route) => {
-      await opened.locator("#walk").click();
-      await route.continue();
+test.for(["assets/session-*.js", "samples/*"])(
+  "who clicks before %s is there sees a still picture, divided in the middle",
+  async (late) => {
+    serveSmallDragon();
+    const page = await openPage("", { reducedMotion: "no-preference" }, async (opened) => {
+      await withoutTools(opened);
+      await opened.route(`**/${late}`, async (route) => {
+        await opened.locator("#walk").click();
+        await route.continue();
+      });
     });
-  });
-  await reached(page, "ready");
-  const { viewpoint } = await upToDate(page);
-  await expect.poll(() => page.locator("#divider").getAttribute("aria-valuenow")).toBe("50");
-  expect((await upToDate(page)).viewpoint).toEqual(viewpoint);
-});
+    await reached(page, "ready");
+    const { viewpoint } = await upToDate(page);
+    await expect.poll(() => page.locator("#divider").getAttribute("aria-valuenow")).toBe("50");
+    expect((await upToDate(page)).viewpoint).toEqual(viewpoint);
+  },
+);

@@ -22,7 +22,10 @@ export class Introduction {
     this.#viewer = viewer;
     this.#store = store;
     this.#turning = turning;
-    this.#going = this.#introduces = introduces;
+    this.#introduces = introduces;
+    // The user may touch the page before this script has come. Old browsers do not tell.
+    const { userActivation } = navigator as Partial<Navigator>;
+    this.#going = introduces && userActivation?.hasBeenActive !== true;
     if (!introduces) return;
     store.change({ compare: isCalm() ? MIDDLE : 1 });
     for (const touch of ["pointerdown", "wheel", "keydown", "click"]) {
