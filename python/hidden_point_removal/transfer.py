@@ -113,7 +113,7 @@ def _weights(weigh, view, lens):
         fx, fy, cx, cy = lens[:4]
         x, y = (view.pixels.astype(float) - (cx, cy)).T / [[fx], [fy]]
         return (1 / np.sqrt(1 + x * x + y * y)).astype(np.float32)
-    return np.ones(view.count, np.float32) if weigh is None else view.scores[view.indices]
+    return view.scores[view.indices] if weigh == "score" and view.count else np.ones(view.count, np.float32)
 
 
 # Entries are merged that lie side by side: so many for each point.

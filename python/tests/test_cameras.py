@@ -96,6 +96,8 @@ def test_colors_go_from_images_to_points():
     view = CLOUD.visible_from_camera(CAMERAS[0], exponent=3)
     smooth, _ = transfer(CLOUD, CAMERAS[:1], [ramp], sampling="bilinear", exponent=3)
     assert np.allclose(smooth[view.indices], view.pixels[:, 0].clip(0.5, 63.5), atol=1e-3)
+    values, seen = transfer(PointCloud(np.empty((0, 3))), CAMERAS, images, weights="score")
+    assert values.shape == (0, 3) and seen.shape == (0,)
 
 
 def test_images_may_be_files(tmp_path):
@@ -217,6 +219,7 @@ IMAGE = np.zeros((48, 64))
         ("option", "at least one station", lambda: CLOUD.calibrate([])),
         ("option", "at least one station", lambda: CLOUD.calibrate(7)),
         ("option", r"stations\[0\]", lambda: CLOUD.calibrate([7])),
+        ("option", "integers", lambda: CLOUD.calibrate([{"viewpoint": VIEWPOINT, "indices": [[1], [2, 3]]}])),
         ("option", "viewpoint", lambda: CLOUD.calibrate([{"indices": [1]}])),
         ("option", "one of indices and mask", lambda: CLOUD.calibrate([{"viewpoint": VIEWPOINT}])),
         ("option", "no points", lambda: CLOUD.calibrate([{"viewpoint": VIEWPOINT, "indices": []}])),

@@ -93,7 +93,6 @@ impl PointCloud {
         for step in steps.into_iter().flatten() {
             cloud = cloud.kept_after(step)?;
         }
-        cloud.keep_survey(options)?;
         cloud.keep_voters(options)
     }
 

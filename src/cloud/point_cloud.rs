@@ -59,7 +59,7 @@ pub(crate) struct Kept {
     pub voters: Option<Voters>,
     pub statistics: Once<Statistics>,
     pub noise: Once<Arc<Noise>>,
-    pub survey: Option<Arc<Survey>>,
+    pub survey: Once<Arc<Survey>>,
     /// The cloud of the points that a mask marks, with one byte for each index.
     #[cfg(feature = "lite")]
     pub masked: Option<(Vec<u8>, Box<PointCloud>)>,

@@ -187,7 +187,9 @@ impl Camera {
         if lens.distortion.bends() {
             wide = f64::INFINITY;
         }
-        Ok((lens.axes[2].to_array(), 2.0 * libm::atan(wide).to_degrees()))
+        // An angle of 0 is no cone.
+        let angle = larger(2.0 * libm::atan(wide).to_degrees(), f64::MIN_POSITIVE);
+        Ok((lens.axes[2].to_array(), angle))
     }
 
     /// The camera, ready to project points.

@@ -154,7 +154,7 @@ fn prepare(
     let mask = choices.mask();
     let numbers = options.denoise.or(options.vote).or(options.sample);
     let is_chosen = mask.is_some() || options.within.is_some();
-    if !(is_chosen || options.asks_for_looks() || numbers.is_some()) {
+    if !(is_chosen || numbers.is_some()) {
         return Ok(false);
     }
     CLOUDS.with_borrow_mut(|clouds| match clouds.get_mut(handle as usize) {

@@ -1,7 +1,8 @@
 //! What a camera sees: the view from its place, cut to its image.
 
 use hidden_point_removal::{
-    Camera, CameraModel, Convention, Error, Options, Placing, PointCloud, Pose, Seat, Within,
+    Camera, CameraModel, Convention, Error, MapOptions, Options, Placing, PointCloud, Pose, Seat,
+    Within,
 };
 
 use crate::common::cameras::{LENSES, camera, matrix};
@@ -232,6 +233,24 @@ fn the_cone_of_a_camera_holds_its_image() {
             }
         }
     }
+}
+
+#[test]
+fn the_narrowest_image_has_a_cone() {
+    let (axis, angle) = Camera::new(1e170, 1e170, 5.0, 5.0, 10.0, 10.0)
+        .cone()
+        .unwrap();
+    assert_eq!(axis, [0.0, 0.0, 1.0]);
+    let choices = MapOptions {
+        towards: Some((axis, angle)),
+        ..MapOptions::default()
+    };
+    let cloud = PointCloud::new(&[[0.0, 0.0, 1.0]]).unwrap();
+    assert!(
+        cloud
+            .visibility_map([0.0; 3], &Options::default(), &choices)
+            .is_ok()
+    );
 }
 
 #[test]

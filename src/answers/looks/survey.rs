@@ -20,7 +20,6 @@ use crate::cloud::noise::Noise;
 use crate::cloud::point_cloud::{PointCloud, Smooth, Survey};
 use crate::cloud::quadric::off_quadric;
 use crate::cloud::statistics::{mean_distance, sampled_place};
-use crate::view::options::Options;
 
 /// How many neighbors make the plane to which a point moves.
 const NEIGHBORS: usize = 32;
@@ -146,17 +145,7 @@ impl PointCloud {
         if thickness == Some(0.0) {
             return Ok(None);
         }
-        Ok(Some(match &self.kept.survey {
-            Some(survey) => survey.clone(),
-            None => Arc::new(Survey::of(self)?),
-        }))
-    }
-
-    /// Keeps the survey for views with these options.
-    pub(crate) fn keep_survey(&mut self, options: &Options) -> Result<(), Error> {
-        if options.asks_for_looks() && self.kept.survey.is_none() {
-            self.kept.survey = self.noise_survey(options.thickness)?;
-        }
-        Ok(())
+        let measure = || Survey::of(self).map(Arc::new);
+        self.kept.survey.get(measure).map(Some)
     }
 }
