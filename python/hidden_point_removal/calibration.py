@@ -77,13 +77,12 @@ def _station(number, given, length):
         own = np.flatnonzero(marks)
     else:
         own = _numbers(indices, "iuf")
-        if own is not None and not own.size:
-            own = np.empty(0, int)
-        if own is None or own.dtype.kind == "f" or own.ndim != 1 or (own < 0).any():
+        # An empty list is one of float.
+        if own is None or (own.size and (own.dtype.kind == "f" or own.ndim != 1 or (own < 0).any())):
             raise refusal("option", f"the indices of {name} must be integers from 0 to {2**32 - 1}")
     if (own >= length).any():
         raise refusal("option", f"{name} has index {own[own >= length][0]}, which must be below {length}")
-    if not len(own):
+    if not own.size:
         raise refusal("option", f"{name} has no points")
     return place, own
 

@@ -214,11 +214,16 @@ impl Memory {
 
     /// Reads the complete hull.
     pub(super) fn finish(&mut self, flipped: &Flipped) -> Result<(), OutOfMemory> {
+        self.mark_boundary(flipped)?;
+        self.complete();
+        Ok(())
+    }
+
+    /// The hull has all points.
+    pub(super) fn complete(&mut self) {
         #[cfg(debug_assertions)]
         self.hull.assert_is_hull();
-        self.mark_boundary(flipped)?;
         self.state = State::Complete;
-        Ok(())
     }
 
     /// Marks the added points that are on the hull's boundary. A point that was found exactly on

@@ -49,14 +49,12 @@ pub(crate) fn complete(
     let flipped = Flipped::of(points, &[], flip);
     if start(&flipped, points.len(), memory)? {
         memory.add_all(&flipped, false)?;
-        #[cfg(debug_assertions)]
-        memory.hull.assert_is_hull();
-        memory.state = State::Complete;
+        memory.complete();
     }
     Ok(())
 }
 
-/// The same for one sector of the view: only its own points are marked.
+/// [`mark_visible`] for one sector of the view: only its own points are marked.
 #[inline(never)]
 pub(crate) fn mark_sector(
     points: &Points,

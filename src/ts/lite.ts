@@ -251,8 +251,7 @@ export function hiddenPointRemoval(
 
 function coreOptions(settings: ViewSettings): CoreOptions {
   const memory = (length: number) => new Uint32Array(length);
-  // The types of the glue are those of its last build.
-  return { ...coreNumbers(settings), memory } as object as CoreOptions;
+  return { ...coreNumbers(settings), memory };
 }
 
 /** Refuses the rules that ask for more than one hull. */

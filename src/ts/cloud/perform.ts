@@ -191,8 +191,7 @@ export function coreOptions(settings: ViewSettings, spares?: Spares): CoreOption
     left = undefined;
     return roomIn(spare, length);
   };
-  // The types of the glue are those of its last build.
-  return { ...coreNumbers(settings), memory } as object as CoreOptions;
+  return { ...coreNumbers(settings), memory };
 }
 
 function found({ length }: Target, settings: ViewSettings, answer: CoreAnswer): Found {
