@@ -131,8 +131,6 @@ function parsed(args: string[]) {
         inversion: { type: "string" },
         looks: { type: "string" },
         "score-threshold": { type: "string" },
-        denoise: { type: "string" },
-        vote: { type: "string" },
         workers: { type: "string" },
         columns: { type: "string" },
         overwrite: { type: "boolean" },
@@ -150,7 +148,7 @@ function parsed(args: string[]) {
 
 /** parseArgs insists on `--from=-1,2,3`, so `--from -1,2,3` is changed to that. */
 function joinedToNegative(args: string[]) {
-  const takesNumber = /^--(from|radius|exponent|looks|score-threshold|denoise|vote|workers)$/;
+  const takesNumber = /^--(from|radius|exponent|looks|score-threshold|workers)$/;
   const isValue = (i: number) => takesNumber.test(args[i - 1] ?? "") && /^-[\d.]/.test(args[i] ?? "");
   return (word: string, i: number): string[] => {
     if (isValue(i)) return [];
@@ -168,7 +166,7 @@ function checkInput(input: string, hasColumns: boolean): void {
 
 /** The options of a view. Those that exclude each other are refused. */
 function viewOptions(values: Values): VisibilityOptions {
-  const { radius, exponent, inversion, denoise, vote } = values;
+  const { radius, exponent, inversion } = values;
   const isOperator = radius !== undefined || exponent !== undefined || inversion !== undefined;
   const looks = values.looks === undefined ? (isOperator ? 0 : 3) : readLooks(values.looks);
   const options: VisibilityOptions = {
@@ -176,8 +174,6 @@ function viewOptions(values: Values): VisibilityOptions {
     ...(exponent === undefined ? {} : { exponent: readExponent(exponent) }),
     ...(inversion === undefined ? {} : { inversion: readInversion(inversion) }),
     ...(looks === 0 ? {} : { looks }),
-    ...(denoise === undefined ? {} : { denoise: readCount("denoise", denoise) }),
-    ...(vote === undefined ? {} : { vote: readCount("vote", vote) }),
   };
   // `--exponent auto` says the same as no exponent, but it excludes the same options.
   const asked = { ...options, ...(exponent === undefined ? {} : { exponent: options.exponent ?? 0 }) };
@@ -196,7 +192,7 @@ function checkInversion({ radius, exponent, inversion }: VisibilityOptions): voi
   const excluded =
     exponent !== undefined
       ? "--exponent"
-      : radius === "search" || radius === "opposite" || (typeof radius === "number" && "exponential" in inversion)
+      : radius === "opposite" || (typeof radius === "number" && "exponential" in inversion)
         ? `--radius ${radius}`
         : undefined;
   if (excluded !== undefined) {

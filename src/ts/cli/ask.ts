@@ -2,8 +2,7 @@ import { transfer } from "../cloud/transfer.js";
 import { type Camera, isCamera } from "../query/camera.js";
 import type { SeenBy } from "../query/seen-by.js";
 import type { TransferOptions, Transferred } from "../query/transfer.js";
-import { isDivisible } from "../query/queries.js";
-import { viewSettings, type VisibilityOptions } from "../query/view-options.js";
+import type { VisibilityOptions } from "../query/view-options.js";
 import { WorkerPointCloud } from "../worker.js";
 import { defaultWorkers, MAX_WORKERS } from "../worker/workers.js";
 import type { PointFile } from "./formats/point-file.js";
@@ -43,7 +42,7 @@ type OnProgress = (share: number, doing: string) => void;
 
 /**
  * Asks the cloud of a file, one answer after another. The cloud is in workers, so this thread can draw the
- * progress, and large clouds use several cores.
+ * progress, and several cores share many viewpoints.
  */
 export async function* ask(
   { positions }: PointFile,
@@ -55,7 +54,7 @@ export async function* ask(
     nonFinite: "skip",
     // The output needs the positions again.
     transfer: question.kind !== "colors",
-    workers: workers ?? (isShared(question) ? await defaultWorkers(positions.length / 3, MAX_WORKERS) : 1),
+    workers: workers ?? (sharesViewpoints(question) ? await defaultWorkers(positions.length / 3, MAX_WORKERS) : 1),
     onProgress: (share) => {
       onProgress(share / 2, "preparing");
     },
@@ -69,10 +68,9 @@ export async function* ask(
   }
 }
 
-/** Whether several workers can share the work: the viewpoints, or each view. */
-function isShared({ kind, options }: Question): boolean {
-  const isOne = kind === "view" || kind === "each";
-  return !isOne || isDivisible(3, viewSettings({ ...options }, 3));
+/** Workers share the viewpoints of one question. */
+function sharesViewpoints({ kind }: Question): boolean {
+  return kind !== "view" && kind !== "each";
 }
 
 async function* answers(

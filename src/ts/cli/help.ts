@@ -25,15 +25,13 @@ From where (one of the three, in the coordinates of the file):
   --weights W          how much a camera counts there: distance, angle or score
 
 How (the defaults fit most clouds):
-  --radius R           R in the units of the file; or auto (the default), search, opposite
+  --radius R           R in the units of the file; or auto (the default), or opposite
   --exponent E         R is the farthest distance times 10^E (0 or more); the larger, the
                        more points
   --inversion I        spherical (the default), power:G, exponential:C or exponential:auto
   --looks N            2 or 3 looks: truer answers than one flip, about 3 times the work; 0 is one
                        flip. The default is 3, and 0 with one of the three options above
   --score-threshold T  with looks: the points whose score is at least T, from 0 to 1
-  --denoise K          for noisy points: first moves each onto the plane of its K neighbors
-  --vote K             for noisy points: lets each point and its K neighbors vote
 
 What to write:
   -o, --output OUT     the file to write; - is standard output. With --viewpoints or --cameras, a
@@ -49,9 +47,9 @@ What to write:
                        All but points are text, one line each, or NumPy arrays (.npy)
   --overwrite          OUT may be the same file as IN, CAMERA or PLACES
   --damaged            reads a file that contradicts itself, and says how
-  --workers N          how many workers share the work, from 1 to 64; they change no answer. The default is
-                       one for each core from 200,000 points on, but no more than hold 16 million
-                       points together, and 1 for smaller files
+  --workers N          how many workers share many viewpoints, from 1 to 64; they change no answer. The
+                       default is one for each core from 200,000 points on, but no more than hold
+                       16 million points together, and 1 for smaller files
   --progress           reports the progress, also if standard error is not a terminal
   -h, --help           shows this
   --version            shows the version

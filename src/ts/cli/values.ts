@@ -14,10 +14,10 @@ export function readViewpoint(text: string): number[] {
 }
 
 export function readRadius(text: string): number | RadiusRule {
-  if (text === "auto" || text === "search" || text === "opposite") return text;
+  if (text === "auto" || text === "opposite") return text;
   const radius = numberIn(text);
   if (!(radius > 0 && Number.isFinite(radius))) {
-    throw new UsageProblem(`--radius needs a number above 0, or auto, search or opposite, not ${text}`);
+    throw new UsageProblem(`--radius needs a number above 0, auto or opposite, not ${text}`);
   }
   return radius;
 }
