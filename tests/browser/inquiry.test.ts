@@ -64,8 +64,7 @@ class Scene {
     const points = {
       length,
       spacing: 1,
-      visibleFrom: (_: unknown, { kind, signal, draft }: { kind: string; signal: AbortSignal; draft?: boolean }) =>
-        ask(draft ? "draft" : kind, signal),
+      visibleFrom: (_: unknown, { kind, signal }: { kind: string; signal: AbortSignal }) => ask(kind, signal),
       visibilityMap: () => ask("map", new AbortController().signal),
       dispose: () => Promise.resolve((this.disposed += 1)),
     };
@@ -108,9 +107,9 @@ class Scene {
   }
 }
 
-test("the first view is answered by a draft, one hull and looks; a move by maps, and by looks at rest", async () => {
+test("the first view is answered by one hull and looks; a move by maps, and by looks at rest", async () => {
   const scene = await Scene.of(100_000);
-  expect([scene.asked.splice(0)[0]!.kind, ...(await scene.kinds(0))]).toEqual(["draft", "operator", "looks", "map"]);
+  expect([scene.asked.splice(0)[0]!.kind, ...(await scene.kinds(0))]).toEqual(["operator", "looks", "map"]);
   expect(scene.inquiry.busy).toBe(false);
   const moving = [];
   for (let x = 1; x < 4; x++) {
@@ -137,12 +136,12 @@ test("frames that take longer than a rest are no rest", async () => {
   expect(await scene.kinds(1)).toEqual(["looks"]);
 });
 
-test("a small cloud has no drafts", async () => {
+test("a small cloud is asked by one hull and looks, and by no maps", async () => {
   const small = await Scene.of(1000);
   expect([small.asked.splice(0)[0]!.kind, ...(await small.kinds(250))]).toEqual(["operator", "looks"]);
 });
 
-test("after a change of settings there is no draft, and nothing known is asked again", async () => {
+test("after a change of settings the final answer alone is asked, and nothing known is asked again", async () => {
   const scene = await Scene.of(100_000);
   scene.asked.length = 0;
   await scene.kinds(250);

@@ -139,8 +139,7 @@ test("a whole session sends requests only to this site, and to the address of ?s
     "access-control-allow-origin": "*",
   });
   try {
-    const page = await openReady("?sample=bunny", { serviceWorkers: "allow" }, note);
-    await page.evaluate(() => navigator.serviceWorker.ready);
+    const page = await openReady("?sample=bunny", {}, note);
     await drag(page, 60, 20);
     await upToDate(page);
     for (const key of ["c", "p", "m", "s", "e", "?"]) {

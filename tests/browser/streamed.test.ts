@@ -71,16 +71,16 @@ test("settings that need all points are answered by the coarser levels alone, an
   served.set("ranged/octree.copc.laz", content);
   const page = await openReady(`?src=ranged/octree.copc.laz&${LIMIT}&exponent=2`);
   const now = await status(page);
-  expect(now).toMatchObject({ state: "ready", answer: "draft", total: 3000 });
+  expect(now).toMatchObject({ state: "ready", answer: "part", total: 3000 });
   expect(await said(page)).toContain("of the 1,000 points of the coarser levels can be seen from here");
   expect(await page.locator("#message p").textContent()).toContain("the coarser levels alone");
 });
 
-test("with too little room for its points, a view ends as a draft, and says how many nodes are undecided", async () => {
+test("with too little room for its points, a view ends with a part, and says how many nodes are undecided", async () => {
   served.set("ranged/octree.copc.laz", content);
   const page = await openReady(`?src=ranged/octree.copc.laz&${LIMIT}&points=600`);
   const now = await status(page);
-  expect(now).toMatchObject({ state: "ready", answer: "draft", busy: 0, total: 3000 });
+  expect(now).toMatchObject({ state: "ready", answer: "part", busy: 0, total: 3000 });
   expect(await said(page)).toMatch(/not exact, [1-9]\d* nodes? undecided/);
   expect(now.visible).toBeLessThanOrEqual(600);
 });

@@ -55,12 +55,10 @@ export async function openPage(
   options: BrowserContextOptions = {},
   prepare?: (page: Page) => Promise<unknown>,
 ): Promise<Page> {
-  // Each page is a first visit. offline.test.ts tests what stays between visits.
   // Software drawing takes nearly all the time. A quarter of the pixels, in the same layout, takes half of it.
   const context = await newContext({
     viewport: { width: 1000, height: 700 },
     deviceScaleFactor: 0.5,
-    serviceWorkers: "block",
     // One answer does not fade into the next one, so that pictures can be compared.
     reducedMotion: "reduce",
     ...options,
@@ -103,7 +101,7 @@ export async function openReady(
 
 export interface Status {
   state: string;
-  answer: "draft" | "operator" | "looks";
+  answer: "map" | "operator" | "looks" | "part";
   total: number;
   visible: number;
   viewpoint: [number, number, number];

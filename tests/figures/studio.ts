@@ -83,7 +83,7 @@ export class Studio {
 
   /** A picture of the whole page, as visitors see it. */
   async visit(query: string, options: BrowserContextOptions, use: (page: Page) => Promise<void>): Promise<void> {
-    const context = await this.#browser.newContext({ ...options, serviceWorkers: "block" });
+    const context = await this.#browser.newContext(options);
     try {
       const page = await context.newPage();
       await page.goto(this.#site.address + query);

@@ -1,12 +1,5 @@
 import { HprError, type VisibilityMap } from "hidden-point-removal";
-import {
-  type AnswerKind,
-  type AskedStage,
-  Follower,
-  Refinement,
-  type Round,
-  type Stage,
-} from "hidden-point-removal/worker";
+import { type AskedStage, Follower, Refinement, type Round, type Stage } from "hidden-point-removal/worker";
 import type { Cloud } from "../cloud/cloud.ts";
 import type { Settings, Viewpoint } from "../settings/settings.ts";
 import {
@@ -23,7 +16,8 @@ import { askMap, askView, type ViewAnswer } from "./views.ts";
 import type { WorkerCloud } from "./worker-cloud.ts";
 
 export interface TimedView extends ViewAnswer {
-  kind: Exclude<AnswerKind, "map">;
+  /** `part`: an answer about those points alone that were read of a streamed octree. */
+  kind: "operator" | "looks" | "part";
   /** The time of the question (performance.now), and how long the answer took, without the time of waiting. */
   asked: number;
   milliseconds: number;
@@ -46,10 +40,8 @@ export interface Mapped {
   milliseconds: number;
 }
 
-/** Below this number of points, one hull takes about as long as a frame, so nobody waits for a map or a draft. */
-const DRAFTS_FROM = 50_000;
-/** After a draft, one hull is asked if the viewpoint has not moved for this number of milliseconds. */
-const PAUSE = 40;
+/** Below this number of points, one hull takes about as long as a frame, so nobody waits for a map. */
+const MAPS_FROM = 50_000;
 /** A viewpoint that has not moved for this number of milliseconds, and in this number of frames, is at rest. */
 const REST = 250;
 const STILL = 2;
@@ -174,13 +166,13 @@ export class Inquiry {
   }
 
   get #stages(): Stage<ViewQuestion>[] {
-    const isLarge = this.cloud.points.length >= DRAFTS_FROM;
+    const isLarge = this.cloud.points.length >= MAPS_FROM;
     // The first answer is awaited, so it has to be one.
     const mapped = isLarge && this.#answered !== null ? mappedStagesOf(this.#wanted!) : null;
-    return (mapped ?? stagesOf(this.#wanted!, isLarge)).map((question, number) => ({
+    return (mapped ?? stagesOf(this.#wanted!)).map((question) => ({
       kind: kindOf(question),
       options: question,
-      rest: question.map ? 0 : mapped !== null || question.method.looks > 0 ? REST : number > 0 ? PAUSE : 0,
+      rest: question.map ? 0 : mapped !== null || question.method.looks > 0 ? REST : 0,
     }));
   }
 
@@ -223,7 +215,7 @@ export class Inquiry {
 
   /** The first map of a cloud takes longer, so it is made before the camera moves. */
   #prepareMaps(question: ViewQuestion): void {
-    if (this.#hasMaps || this.cloud.points.length < DRAFTS_FROM) return;
+    if (this.#hasMaps || this.cloud.points.length < MAPS_FROM) return;
     this.#hasMaps = true;
     // If it is refused, the first move says why.
     askMap(this.cloud, question).catch(() => undefined);

@@ -1,4 +1,3 @@
-import type { AnswerKind } from "hidden-point-removal/worker";
 import {
   canLook,
   type Inversion,
@@ -23,8 +22,6 @@ export interface Method {
 export interface ViewQuestion {
   viewpoint: Viewpoint;
   method: Method;
-  /** Asks for an early answer, which also has some hidden points. */
-  draft?: boolean;
   /** Asks for a map of directions, by which the graphics card leaves out hidden points. */
   map?: boolean;
 }
@@ -43,26 +40,17 @@ export function viewOf(viewpoint: Viewpoint, settings: Settings): ViewQuestion {
     : { viewpoint, method };
 }
 
-export function kindOf({ draft, map, method }: ViewQuestion): AnswerKind {
+export function kindOf({ map, method }: ViewQuestion): "map" | "operator" | "looks" {
   if (map) return "map";
-  if (draft) return "draft";
   return method.looks > 0 ? "looks" : "operator";
 }
 
-/**
- * The questions that lead to a final answer, each slower and better than the one before:
- *
- *     draft ─► one hull ─► looks
- *
- * The last of the three is missing if one hull is the final answer. `drafts`: whether the cloud is so large that a draft
- * is worth its time.
- */
-export function stagesOf(final: ViewQuestion, drafts: boolean): ViewQuestion[] {
+/** The questions that lead to a final answer: one hull, which is soon there, and then the looks, if they are wanted. */
+export function stagesOf(final: ViewQuestion): ViewQuestion[] {
   const { method } = final;
+  if (method.looks === 0) return [final];
   const hull: Method = { ...method, radius: { rule: "auto" }, looks: 0, thickness: undefined };
-  const operator = method.looks > 0 ? { ...final, method: hull } : final;
-  const first = drafts ? [{ ...operator, draft: true }] : [];
-  return [...first, operator, ...(operator === final ? [] : [final])];
+  return [{ ...final, method: hull }, final];
 }
 
 /** The questions while the camera moves: a map for each frame, and at rest the final answer. */
@@ -83,7 +71,6 @@ export function isSamePlace(a: Viewpoint, b: Viewpoint, size: number): boolean {
 export function isSameView(a: ViewQuestion, b: ViewQuestion, size: number): boolean {
   return (
     isSamePlace(a.viewpoint, b.viewpoint, size) &&
-    a.draft === b.draft &&
     a.map === b.map &&
     JSON.stringify(a.method) === JSON.stringify(b.method)
   );

@@ -12,9 +12,9 @@ export interface ViewAnswer {
 
 /** Finds what a viewpoint sees. If the settings do not suit the cloud or the place, the library's defaults are used. */
 export async function askView(cloud: WorkerCloud, question: ViewQuestion, signal?: AbortSignal): Promise<ViewAnswer> {
-  const { viewpoint, method, draft } = question;
+  const { viewpoint, method } = question;
   const { value, note } = await orUsual(cloud.options(method), (options) =>
-    cloud.points.visibleFrom(viewpoint, { ...options, signal, ...(draft && { draft }) }),
+    cloud.points.visibleFrom(viewpoint, { ...options, signal }),
   );
   return { question, visibility: value, note };
 }

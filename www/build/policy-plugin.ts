@@ -37,7 +37,6 @@ function policyOf(html: string): string {
     // A file of `?src=` may be on any server. A glTF file may contain its own buffers.
     "connect-src": ["'self'", "http:", "https:", "data:", "blob:"],
     "worker-src": ["'self'"],
-    "manifest-src": ["'self'"],
     "base-uri": ["'none'"],
     "form-action": ["'none'"],
   };

@@ -31,14 +31,14 @@ export interface HiddenPointCloudEventMap {
   load: CustomEvent<{ total: number; notes: string[] }>;
   /**
    * Other points are visible; also after `load`. `radius` is 0 if the inversion or the looks have none. While the camera
-   * moves, `answer` is `draft` (it also has hidden points) or `operator`. When it rests, the final answer comes.
+   * moves, a cloud of 50,000 points and more is drawn by maps, which have no event. When it rests, the answer comes.
    */
   change: CustomEvent<{
     count: number;
     viewpoint: Place;
     radius: number;
     milliseconds: number;
-    answer: "draft" | "operator" | "looks";
+    answer: "operator" | "looks" | "part";
   }>;
   /** The progress of the loading, from 0 to 1; `null` if it is not known. */
   progress: CustomEvent<{ fraction: number | null }>;

@@ -2,7 +2,6 @@ import { fileURLToPath } from "node:url";
 import { defineConfig } from "vite";
 import { COMMON } from "../build/common.ts";
 import { declarations } from "../build/declarations-plugin.ts";
-import { three } from "../build/three-plugin.ts";
 
 const here = (path: string) => fileURLToPath(new URL(path, import.meta.url));
 const NAME = "hidden-point-cloud";
@@ -25,5 +24,5 @@ export default defineConfig({
       output: { entryFileNames: "[name].js" },
     },
   },
-  plugins: [three(), declarations(here("api.ts"), `${NAME}.d.ts`)],
+  plugins: [declarations(here("api.ts"), `${NAME}.d.ts`)],
 });

@@ -15,8 +15,8 @@ export async function download(
 }
 
 /** Downloads a whole file that is small. */
-export async function downloadBytes(name: string, url: string, unreachable: string): Promise<Uint8Array> {
-  return bodyOf(name, await ask(name, url, { unreachable }));
+export async function downloadBytes(name: string, url: string): Promise<Uint8Array> {
+  return bodyOf(name, await ask(name, url));
 }
 
 /**
@@ -29,7 +29,7 @@ export async function downloadRanges(
 ): Promise<{ read: (from: number, to: number) => Promise<Uint8Array> } | { blob: Blob }> {
   let first: Response;
   try {
-    first = await ask(name, url, { range: [0, FIRST] });
+    first = await ask(name, url, [0, FIRST]);
   } catch {
     // Some servers refuse range requests from pages of other sites, but not the request for the whole file.
     return { blob: await download(name, url, onProgress) };
@@ -39,7 +39,7 @@ export async function downloadRanges(
   return {
     read: async (from, to) => {
       if (to <= head.length) return head.subarray(from, to);
-      const response = await ask(name, url, { range: [from, to] });
+      const response = await ask(name, url, [from, to]);
       if (response.status !== 206) {
         throw new LoadProblem(`${name} could not be downloaded: the server no longer sends parts of it.`);
       }
@@ -51,20 +51,14 @@ export async function downloadRanges(
 /** Enough for a header and its records. */
 const FIRST = 1 << 16;
 
-interface Question {
-  range?: [number, number];
-  /** The reason why the file is not available, if it is known. */
-  unreachable?: string;
-}
-
-async function ask(name: string, url: string, { range, unreachable }: Question = {}): Promise<Response> {
+async function ask(name: string, url: string, range?: [number, number]): Promise<Response> {
   let response: Response;
   try {
     response = await fetch(url, range ? { headers: { Range: `bytes=${range[0]}-${range[1] - 1}` } } : {});
   } catch {
     const own = new URL(url, location.href).origin === location.origin;
     const why = own ? "the connection failed" : "the address does not answer, or does not allow other pages to read it";
-    throw new LoadProblem(`${name} could not be downloaded: ${unreachable ?? why}.`);
+    throw new LoadProblem(`${name} could not be downloaded: ${why}.`);
   }
   if (!response.ok) throw new LoadProblem(`${name} could not be downloaded: the server answered ${response.status}.`);
   return response;

@@ -4,12 +4,9 @@ import { downloadBytes } from "./download.ts";
 import { LoadProblem } from "./problem.ts";
 import type { LoadRequest } from "./protocol.ts";
 
-/** Why a sample is not available. Samples that have been opened before are kept (offline/service-worker.ts). */
-const NOT_KEPT = "there is no connection, and it has not been opened on this device before";
-
 /** Loads the file of a sample in the page's thread: there is nothing to read, and a worker would start later than it comes. */
 export async function loadSample({ name, url }: LoadRequest & { kind: "sample" }): Promise<PreparedCloud> {
-  const { buffer: data } = await downloadBytes(name, url, NOT_KEPT);
+  const { buffer: data } = await downloadBytes(name, url);
   // Some servers answer with a page if they do not have the file.
   if (data.byteLength % 12 !== 0) {
     throw new LoadProblem(`${name} could not be downloaded: the server sent something else.`);

@@ -63,7 +63,7 @@ const FROM_STATION = 65;
 const SHARED_BELOW = 200_000;
 /**
  * With two cores, one worker answers. A second one would delay the first picture: it sorts the same points, while the
- * first picture is drawn, and a draft and the answer that goes on from it are the first worker's work alone.
+ * first picture is drawn, and each view is one worker's work.
  */
 const hasFewCores = () => navigator.hardwareConcurrency <= 2;
 

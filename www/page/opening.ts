@@ -1,6 +1,4 @@
-import { nextFrame } from "../controls/dom.ts";
 import { LoadProblem, type ReadOptions } from "../loaders/index.ts";
-import { keepForOffline } from "../offline/keep.ts";
 import { openCloud } from "../open/open-cloud.ts";
 import type { Message } from "../panel/message.ts";
 import type { Panel } from "../panel/panel.ts";
@@ -159,10 +157,6 @@ export class Opening {
     panel.touching = ready.touching;
     address.begin(insteadOf === undefined ? name : null, ready.usual);
     if (insteadOf !== undefined) status.error(insteadOf);
-    // The second frame begins when the first one, with the picture, is on screen.
-    void nextFrame()
-      .then(nextFrame)
-      .then(() => keepForOffline(request.kind === "sample" ? request.url : null));
     if (sample) this.#picker.showSample(sample);
     else this.#picker.showOwn(request.name);
   }

@@ -67,13 +67,13 @@ export class StreamedInquiry extends Inquiry {
     this.#reader.dispose();
   }
 
-  /** Answers about the overview are drafts. If the octree cannot be read with these settings, a note says so. */
+  /** Answers about the overview are about a part. If the octree cannot be read with these settings, a note says so. */
   protected override told(view: TimedView): TimedView {
     const { count } = view.visibility;
     this.#count = count;
     const sentence = sentenceOfOverview(count, this.#overview.count, this.#total);
     const note = streamMethodOf(this.#settings!) === null ? ONLY_OVERVIEW : view.note;
-    return { ...view, kind: "draft", note, whole: { total: this.#total, sentence } };
+    return { ...view, kind: "part", note, whole: { total: this.#total, sentence } };
   }
 
   #want(viewpoint: Viewpoint, settings: Settings): void {
@@ -131,7 +131,7 @@ export class StreamedInquiry extends Inquiry {
     const begun = performance.now();
     const question = viewOf(view.viewpoint, overviewSettings(this.#settings!));
     const detail = await detailOf(step, view.viewpoint, this.#overview, this, {
-      kind: step.exact ? "operator" : "draft",
+      kind: step.exact ? "operator" : "part",
       asked,
       question,
       total: this.#total,

@@ -1,6 +1,6 @@
 import type { Viewer } from "../view/viewer.ts";
 
-/** Lets tools wait until the picture is final: a draft also has points that are hidden. */
+/** Lets tools wait until the picture is final: until then it is that of another place, or that of one hull. */
 export class Patience {
   readonly #viewer: Viewer;
   #waiting: { run: () => void; from: string | null } | null = null;

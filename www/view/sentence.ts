@@ -3,19 +3,17 @@ import type { TimedView } from "../ask/inquiry.ts";
 const number = new Intl.NumberFormat("en-US");
 
 /** An answer in words, for everybody and for screen readers. */
-export function sentenceOf({ visibility, kind }: TimedView, total: number, frozen: boolean): string {
-  const most = kind === "draft" ? "At most " : "";
+export function sentenceOf({ visibility }: TimedView, total: number, frozen: boolean): string {
   const points = total === 1 ? "point" : "points";
   const where = frozen ? "the frozen viewpoint" : "here";
-  return `${most}${number.format(visibility.count)} of ${number.format(total)} ${points} can be seen from ${where}.`;
+  return `${number.format(visibility.count)} of ${number.format(total)} ${points} can be seen from ${where}.`;
 }
 
-/** The same in round numbers, to be read at a glance. A draft, whose number would jump, asks. */
-export function captionOf({ visibility, kind }: TimedView, total: number, frozen: boolean): string {
+/** The same in round numbers, to be read at a glance. */
+export function captionOf({ visibility }: TimedView, total: number, frozen: boolean): string {
   const points = total === 1 ? "point" : "points";
   const seen = `can be seen from ${frozen ? "the eye" : "here"}`;
-  const second = kind === "draft" ? `Which ${seen}?` : `${rounded(visibility.count)} ${seen}.`;
-  return `${rounded(total)} ${points}. ${second}`;
+  return `${rounded(total)} ${points}. ${rounded(visibility.count)} ${seen}.`;
 }
 
 /** How the answer was found. */
