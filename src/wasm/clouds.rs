@@ -20,7 +20,7 @@ use crate::{Horizon, PointCloudNd};
 
 thread_local! {
     static CLOUDS: RefCell<Vec<Option<Cloud>>> = const { RefCell::new(Vec::new()) };
-    static LAST_VIEW: RefCell<Option<LastView>> = const { RefCell::new(None) };
+    static LAST_VIEWS: RefCell<[Option<LastView>; 2]> = const { RefCell::new([None, None]) };
 }
 
 /// A cloud of three dimensions (or two, with z = 0), or of more; or the horizon of a cloud.
@@ -32,8 +32,8 @@ pub(super) enum Cloud {
     Horizon(Box<Horizon>),
 }
 
-/// The hull of the last view. An exact view goes on from its draft. All clouds share one, so that
-/// many clouds take no more memory.
+/// The hull of a view. A view in slices goes on from it. All clouds share two, the newer first, so that many
+/// clouds take no more memory, and a view in slices is kept while other clouds are asked in between.
 struct LastView {
     handle: u32,
     /// Whether only masked points took part.
@@ -119,7 +119,7 @@ pub(super) fn with_memory<T>(
 ) -> Result<T, JsValue> {
     let masked = prepare(handle, Some(viewpoint), choices, options)?;
     with_cloud(handle, |cloud| {
-        LAST_VIEW
+        LAST_VIEWS
             .with_borrow_mut(|last| query(part(cloud, masked), memory_for(last, handle, masked)))
     })
 }
@@ -209,18 +209,21 @@ pub(super) fn with_horizon<T>(
     })
 }
 
-#[inline(never)]
-fn memory_for(last: &mut Option<LastView>, handle: u32, masked: bool) -> &mut ViewMemory {
-    let last = last.get_or_insert_with(|| LastView {
+fn memory_for(last: &mut [Option<LastView>; 2], handle: u32, masked: bool) -> &mut ViewMemory {
+    let is_of = |view: &Option<LastView>| view.as_ref().is_some_and(|last| last.handle == handle);
+    if !is_of(&last[0]) {
+        last.swap(0, 1);
+    }
+    let newest = last[0].get_or_insert_with(|| LastView {
         handle,
         masked,
         memory: ViewMemory::new(),
     });
-    if (last.handle, last.masked) != (handle, masked) {
-        last.memory.forget();
-        (last.handle, last.masked) = (handle, masked);
+    if (newest.handle, newest.masked) != (handle, masked) {
+        newest.memory.forget();
+        (newest.handle, newest.masked) = (handle, masked);
     }
-    &mut last.memory
+    &mut newest.memory
 }
 
 /// Frees the memory of the cloud's last view.
@@ -228,9 +231,11 @@ fn forget(handle: u32) {
     if !FULL {
         return;
     }
-    LAST_VIEW.with_borrow_mut(|last| {
-        if last.as_ref().is_some_and(|last| last.handle == handle) {
-            *last = None;
+    LAST_VIEWS.with_borrow_mut(|views| {
+        for last in views {
+            if last.as_ref().is_some_and(|last| last.handle == handle) {
+                *last = None;
+            }
         }
     });
 }

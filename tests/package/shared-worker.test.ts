@@ -33,6 +33,48 @@ it("each cloud answers as if it were alone, and the worker ends with the last", 
   await anew.dispose();
 });
 
+it.each([1, 2, 5, 20])("views in slices of %i clouds end, in turn, also while another cloud is asked", async (many) => {
+  const spheres = Array.from({ length: many + 1 }, (_, seed) => bumpySphere(seed, 4000));
+  const clouds = await Promise.all(spheres.map((positions) => WorkerPointCloud.create(positions, { shared: true })));
+  const [moving, ...resting] = clouds;
+  // A view with a signal is computed in slices.
+  const { signal } = new AbortController();
+  const order: number[] = [];
+  const looks = resting.map(async (cloud, number) => {
+    const seen = await cloud.visibleFrom(farAway, { looks: 3, signal });
+    order.push(number);
+    return seen;
+  });
+  let turns = 0;
+  while (order.length < many) {
+    await moving!.visibilityMap([0, turns++ / 100, 5]);
+  }
+  expect(await Promise.all(looks)).toEqual(
+    spheres.slice(1).map((positions) => new PointCloud(positions).visibleFrom(farAway, { looks: 3 })),
+  );
+  expect(order).toEqual(looks.map((_, number) => number));
+  // A view has some 5 slices. A view that began again after each of them would have as many as there are maps.
+  expect(turns).toBeLessThan(12 * many + 12);
+  await Promise.all(clouds.map((cloud) => cloud.dispose()));
+});
+
+it("a view in slices that waits for its turn can be given up", async () => {
+  const clouds = await Promise.all(
+    [1, 2, 3].map((seed) => WorkerPointCloud.create(bumpySphere(seed, 4000), { shared: true })),
+  );
+  const controls = clouds.map(() => new AbortController());
+  const asked = clouds.map((cloud, number) =>
+    cloud.visibleFrom(farAway, { looks: 3, signal: controls[number]!.signal }).catch((error: Error) => error.name),
+  );
+  await Promise.resolve();
+  controls[1]!.abort();
+  controls[0]!.abort();
+  expect(await Promise.all(asked)).toEqual(["AbortError", "AbortError", expect.objectContaining({ exact: true })]);
+  // Each cloud got the reply that it waited for.
+  for (const cloud of clouds) expect((await cloud.visibleFrom(farAway)).count).toBeGreaterThan(100);
+  await Promise.all(clouds.map((cloud) => cloud.dispose()));
+});
+
 it("all clouds of a dead worker are lost, and the next cloud gets a new worker", async () => {
   const [first, second] = await Promise.all(
     [1, 2].map((seed) => WorkerPointCloud.create(bumpySphere(seed, 900), { shared: true })),

@@ -82,37 +82,77 @@ function answer(letter: Letter<Request>, post: Post): Replies[Request["kind"]] {
   }
 }
 
-/** The views that are computed in slices, by the number of their cloud. */
-const sliced = new Map<number, { isAbandoned: boolean }>();
+/** The view that is computed in slices. */
+let sliced: { cloud: number; isAbandoned: boolean } | undefined;
+/** The requests that wait, at most one of each cloud. The clouds take turns, in the order of their requests. */
+let waiting: Letter<Request>[] = [];
 
 function receive(letter: Letter<Request>, post: Post): void {
-  const { cloud, content: request } = letter;
-  if (request.kind === "abandon") {
-    const view = sliced.get(cloud);
-    if (view !== undefined) view.isAbandoned = true;
-  } else if (request.kind === "visibleFrom" && request.sliced === true) {
-    void serveInSlices(cloud, request, post);
-  } else {
-    serve(letter, post);
+  if (letter.content.kind === "abandon") {
+    abandon(letter.cloud, post);
+    return;
+  }
+  waiting.push(letter);
+  if (sliced === undefined) serveWaiting(post);
+}
+
+/** Serves all requests, up to a view in slices. */
+function serveWaiting(post: Post): void {
+  for (let next = waiting.shift(); next !== undefined; next = waiting.shift()) {
+    if (isSliced(next.content)) {
+      void serveInSlices(next.cloud, next.content, post);
+      return;
+    }
+    serve(next, post);
   }
 }
 
-/** Between two slices, other requests are served, and this one may be given up. */
+function isSliced(request: Request): request is Query<"visibleFrom"> & { sliced: true } {
+  return request.kind === "visibleFrom" && request.sliced === true;
+}
+
+/**
+ * After each slice, one request of another cloud is served, and this view may be given up. Other views in slices wait,
+ * because the wasm keeps two unfinished views: each of more clouds would begin again in each of its slices.
+ */
 async function serveInSlices(cloud: number, request: Query<"visibleFrom">, post: Post): Promise<void> {
-  const view = { isAbandoned: false };
-  sliced.set(cloud, view);
+  const view = { cloud, isAbandoned: false };
+  sliced = view;
   while (!isComplete(clouds.get(cloud), request)) {
     await nextTask();
     if (view.isAbandoned) {
       break;
     }
+    const next = waiting.find(({ content }) => !isSliced(content));
+    if (next !== undefined) {
+      waiting = waiting.filter((letter) => letter !== next);
+      serve(next, post);
+    }
   }
-  sliced.delete(cloud);
+  sliced = undefined;
   if (view.isAbandoned) {
-    post({ cloud, content: { abandoned: true } satisfies Reply } satisfies Letter, []);
+    giveUp(cloud, post);
   } else {
     serve({ cloud, content: request }, post);
   }
+  serveWaiting(post);
+}
+
+/** Gives up the view in slices of a cloud, also one that waits. */
+function abandon(cloud: number, post: Post): void {
+  if (sliced?.cloud === cloud) {
+    sliced.isAbandoned = true;
+    return;
+  }
+  const view = waiting.find((letter) => letter.cloud === cloud && isSliced(letter.content));
+  if (view !== undefined) {
+    waiting = waiting.filter((letter) => letter !== view);
+    giveUp(cloud, post);
+  }
+}
+
+function giveUp(cloud: number, post: Post): void {
+  post({ cloud, content: { abandoned: true } satisfies Reply } satisfies Letter, []);
 }
 
 /** Computes one slice. Returns whether only the answer is left to ask for. */
