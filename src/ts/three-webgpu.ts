@@ -1,10 +1,6 @@
-import type { Object3D, Points } from "three";
-
 import { HiddenPointNodesFilter as NodesFilter } from "./nodes/filter.js";
-import type { HiddenPointNodesFilterOptions } from "./nodes/options.js";
 import { HiddenPointFilter as Filter } from "./three/filter.js";
 import { patchNodes } from "./three/map-nodes.js";
-import type { HiddenPointFilterOptions } from "./three/options.js";
 
 export { HprError, type HprErrorCode } from "./base/errors.js";
 export type { HiddenPointNodesFilterEvents } from "./nodes/gathered-filter.js";
@@ -17,16 +13,16 @@ export type { FollowOptions } from "./query/follow-options.js";
 
 /** The filter of `hidden-point-removal/three` for a `WebGPURenderer`, with WebGPU or WebGL 2. */
 export class HiddenPointFilter extends Filter {
-  /** @throws HprError as the other filter. */
-  constructor(points: Points, options?: HiddenPointFilterOptions) {
-    super(points, options, patchNodes);
+  /** @internal */
+  protected override get patch(): typeof patchNodes {
+    return patchNodes;
   }
 }
 
 /** The filter of `hidden-point-removal/nodes` for a `WebGPURenderer`. */
 export class HiddenPointNodesFilter extends NodesFilter {
-  /** @throws HprError as the other filter. */
-  constructor(root: Object3D, options?: HiddenPointNodesFilterOptions) {
-    super(root, options, patchNodes);
+  /** @internal */
+  protected override get patch(): typeof patchNodes {
+    return patchNodes;
   }
 }

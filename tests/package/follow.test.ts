@@ -308,7 +308,7 @@ describe("a follower", () => {
   });
 
   it("may answer one view in several rounds, each better than the last, until another view is wanted", async () => {
-    const stages = ["draft", "exact"];
+    const stages = ["map", "exact"];
     let [stage, view] = [0, "a"];
     const asked: string[] = [];
     const follower = new Follower({
@@ -321,10 +321,10 @@ describe("a follower", () => {
       refused: () => undefined,
     });
     follower.follow();
-    expect(asked).toEqual(["a draft"]);
+    expect(asked).toEqual(["a map"]);
     [stage, view] = [0, "b"];
     await settled();
-    expect(asked).toEqual(["a draft", "b draft", "b exact"]);
+    expect(asked).toEqual(["a map", "b map", "b exact"]);
   });
 });
 

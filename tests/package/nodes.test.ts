@@ -145,14 +145,11 @@ describe("a cloud split into nodes", () => {
     ["an exponent", { exponent: 2.5 }],
     ["an exponential", { inversion: { exponential: 0.001 } }],
     ["an automatic exponential", { inversion: { exponential: "auto" } }],
-    ["denoising", { denoise: 6 }],
-    ["a vote", { vote: 6 }],
   ];
 
   it.each([
     ...views,
     ["a power", { inversion: { power: 2 } }],
-    ["a search", { radius: "search" }],
     ["the opposite viewpoint", { radius: "opposite" }],
   ] satisfies typeof views)("is seen with %s like one cloud", async (_, options) => {
     const nodes = split(bumpySphere(5, 4000), 5);

@@ -43,35 +43,30 @@ function follow(options: object = {}, of = cloud) {
 
 const settled = (stream: { settled: boolean }) => expect.poll(() => stream.settled, { interval: 2 }).toBe(true);
 const at = (angle: number) => [5 * Math.sin(angle), 1, 5 * Math.cos(angle)];
-const isPart = (part: Uint32Array, whole: Uint32Array) => {
-  const all = new Set(whole);
-  return part.every((index) => all.has(index));
-};
 
 describe("a stream", () => {
-  it("gives a draft, the exact answer, and at rest the answer that `settle` asks for", async () => {
+  it("gives the exact answer, and at rest the answer that `settle` asks for", async () => {
     const { stream, answers, kinds, errors } = follow({ exponent: 3, settle: { looks: 3, scores: true } });
     expect([stream.last, stream.visible]).toEqual([null, null]);
     const begun = performance.now();
     stream.look(at(0));
     await settled(stream);
     expect(performance.now() - begun).toBeGreaterThanOrEqual(100);
-    expect(kinds()).toEqual(["draft", "operator", "looks"]);
-    const [draft, exact, looks] = answers.map(({ visibility }) => visibility) as [never, never, never];
+    expect(kinds()).toEqual(["operator", "looks"]);
+    const [exact, looks] = answers.map(({ visibility }) => visibility) as [never, never];
     expect(exact).toEqual(local.visibleFrom(at(0), { exponent: 3 }));
-    expect(draft).toEqual(local.visibleFrom(at(0), { exponent: 3, draft: true }));
     expect(looks).toEqual(local.visibleFrom(at(0), { looks: 3, scores: true }));
     expect(answers[0]).toMatchObject({ viewpoint: at(0), direction: null });
-    expect(stream.last).toBe(answers[2]);
-    expect(stream.visible).toBe(answers[2]!.visibility.indices);
+    expect(stream.last).toBe(answers[1]);
+    expect(stream.visible).toBe(answers[1]!.visibility.indices);
     stream.look(at(0));
     await settled(stream);
-    expect([kinds().length, errors]).toEqual([3, []]);
+    expect([kinds().length, errors]).toEqual([2, []]);
     stream.dispose();
   });
 
-  it("gives only drafts in motion, and the exact answer of the last view", async () => {
-    const { stream, answers } = follow();
+  it("gives answers in motion, and the answer at rest of the last view alone", async () => {
+    const { stream, answers } = follow({ settle: { looks: 2 } });
     let angle = 0;
     // A new view comes before each answer, as with a camera that moves in each frame.
     for (; angle < 1; angle += 0.01) {
@@ -79,13 +74,12 @@ describe("a stream", () => {
       await new Promise((next) => setTimeout(next, 1));
     }
     await settled(stream);
-    const exact = answers.filter(({ answer }) => answer === "operator");
-    const drafts = answers.filter(({ answer }) => answer === "draft");
-    expect(drafts.length).toBeGreaterThan(1);
-    expect(exact.at(-1)!.viewpoint).toEqual(stream.last!.viewpoint);
-    expect(stream.last!.visibility.indices).toEqual(local.visibleFrom(stream.last!.viewpoint!).indices);
-    for (const { visibility, viewpoint } of drafts.slice(0, 5)) {
-      expect(isPart(local.visibleFrom(viewpoint!).indices, visibility.indices)).toBe(true);
+    const moving = answers.filter(({ answer }) => answer === "operator");
+    expect(moving.length).toBeGreaterThan(1);
+    expect(answers.map(({ answer }) => answer).indexOf("looks")).toBe(answers.length - 1);
+    expect(stream.last!.visibility).toEqual(local.visibleFrom(moving.at(-1)!.viewpoint!, { looks: 2 }));
+    for (const { visibility, viewpoint } of moving.slice(0, 5)) {
+      expect(visibility.indices).toEqual(local.visibleFrom(viewpoint!).indices);
     }
     stream.dispose();
   });
@@ -103,14 +97,9 @@ describe("a stream", () => {
     stream.dispose();
   });
 
-  it("asks no draft of a small cloud, nor with `stale` other than draft", async () => {
-    const small = await cloudOf(few);
-    for (const [of, stale] of [
-      [small, "draft"],
-      [cloud, "keep"],
-      [cloud, "all"],
-    ] as const) {
-      const { stream, kinds } = follow({ stale }, of);
+  it("draws all points, or the last answer, until the present view is answered", async () => {
+    for (const stale of ["keep", "all"] as const) {
+      const { stream, kinds } = follow({ stale });
       stream.look(at(1));
       await settled(stream);
       expect(kinds()).toEqual(["operator"]);
@@ -123,25 +112,26 @@ describe("a stream", () => {
     }
   });
 
-  it("lets the draft of the automatic radius stand in for views without a draft", async () => {
-    for (const [options, kind] of [
-      [{ looks: 2 }, "looks"],
-      [{ radius: "search" }, "operator"],
-    ] as const) {
-      const { stream, answers, kinds } = follow(options);
-      stream.look(at(3));
-      await settled(stream);
-      expect(kinds()).toEqual(["draft", kind]);
-      expect(answers[0]!.visibility).toEqual(local.visibleFrom(at(3), { draft: true }));
-      expect(answers[1]!.visibility).toEqual(local.visibleFrom(at(3), options));
-      stream.dispose();
+  it("serves clouds of one worker in turn: each comes to rest, also while another view moves", async () => {
+    const those = await Promise.all([1, 2, 3, 4].map((seed) => cloudOf(bumpySphere(seed, 6000), { shared: true })));
+    const [moving, ...resting] = those.map((of) => follow({ settle: { looks: 3 } }, of).stream);
+    for (const stream of resting) stream.look(at(0));
+    for (let angle = 0; resting.some((stream) => !stream.settled); angle += 0.01) {
+      moving!.look(at(angle));
+      await new Promise((next) => setTimeout(next, 2));
     }
+    expect(moving!.settled).toBe(false);
+    await settled(moving!);
+    expect(resting.map(({ last }) => last!.visibility)).toEqual(
+      [2, 3, 4].map((seed) => new PointCloud(bumpySphere(seed, 6000)).visibleFrom(at(0), { looks: 3 })),
+    );
+    for (const stream of [moving!, ...resting]) stream.dispose();
   });
 
   it("asks nothing for moves that are too short to be seen", async () => {
     const share = cloud.spacing;
-    const asked = async (options: object, move: number) => {
-      const { stream, answers } = follow(options);
+    const asked = async (move: number) => {
+      const { stream, answers } = follow();
       stream.look([0, 0, 5]);
       await settled(stream);
       const before = answers.length;
@@ -150,18 +140,16 @@ describe("a stream", () => {
       stream.dispose();
       return answers.length > before;
     };
-    expect(await asked({}, 0.0009 * share)).toBe(false);
-    expect(await asked({}, 0.002 * share)).toBe(true);
-    expect(await asked({ moveThreshold: 0 }, 1e-12)).toBe(true);
-    expect(await asked({ moveThreshold: 0.5 }, 0.4 * share)).toBe(false);
+    expect(await asked(0.0009 * share)).toBe(false);
+    expect(await asked(0.002 * share)).toBe(true);
     const { stream, answers } = follow();
     stream.lookAlong([0, 0, -1]);
     await settled(stream);
     stream.lookAlong([5e-7, 0, -1]);
     await settled(stream);
-    expect(answers.map(({ answer }) => answer)).toEqual(["draft", "operator"]);
-    expect(answers[1]!).toMatchObject({ viewpoint: null, direction: [0, 0, -1] });
-    expect(answers[1]!.visibility).toEqual(local.visibleFromDirection([0, 0, -1]));
+    expect(answers.map(({ answer }) => answer)).toEqual(["operator"]);
+    expect(answers[0]!).toMatchObject({ viewpoint: null, direction: [0, 0, -1] });
+    expect(answers[0]!.visibility).toEqual(local.visibleFromDirection([0, 0, -1]));
     stream.dispose();
   });
 
@@ -187,7 +175,7 @@ describe("a stream", () => {
     expect(errors).toEqual([expect.objectContaining({ name: "HprError", code: "radius" })]);
     stream.look([0, 0, 2]);
     await settled(stream);
-    expect(answers.map(({ answer }) => answer)).toEqual(["draft", "operator", "operator"]);
+    expect(answers.map(({ answer }) => answer)).toEqual(["operator", "operator"]);
     stream.dispose();
 
     const awaited = cloud.follow({ radius: 5 });
@@ -203,8 +191,8 @@ describe("a stream", () => {
       [{ settle: { looks: 3, exponent: 2 } }, "settle: looks and exponent"],
       [{ settle: { stale: "all" } }, "settle: unknown option"],
       [{ stale: "none" }, "stale must be"],
-      [{ moveThreshold: -1 }, "moveThreshold must be"],
-      [{ moveThreshold: NaN }, "moveThreshold must be"],
+      [{ stale: "draft" }, "stale must be"],
+      [{ moveThreshold: 0.1 }, "unknown option"],
       [{ onAnswer: 7 }, "onAnswer must be"],
       [{ latest: true }, "unknown option"],
     ] as const) {
@@ -243,51 +231,25 @@ describe("a stream", () => {
   });
 });
 
-describe("an exact answer that goes on from a draft", () => {
-  it.each([1, 2, 3])("is given up when its signal aborts, with %i workers", async (workers) => {
-    const one = await cloudOf(many, { workers });
-    await one.visibleFrom(at(0), { draft: true });
-    const controller = new AbortController();
-    const exact = one.visibleFrom(at(0), { signal: controller.signal });
-    await Promise.resolve();
-    controller.abort();
-    await expect(exact).rejects.toMatchObject({ name: "AbortError" });
-    // The draft that comes next does not depend on what was given up.
-    const again = await one.visibleFrom(at(0), { draft: true });
-    expect(again).toEqual(local.visibleFrom(at(0), { draft: true }));
-    expect(await one.visibleFrom(at(0), { signal: new AbortController().signal })).toEqual(local.visibleFrom(at(0)));
-  });
-
-  it("lets other clouds of the shared worker be answered in between", async () => {
-    // The worker begins when both questions are there, however slow this thread is.
-    const gate = new Int32Array(new SharedArrayBuffer(4));
-    const waits = `const { parentPort, workerData } = require("node:worker_threads");
-      parentPort.on("message", ({ content }) => content.sliced && Atomics.wait(workerData, 0, 0))`;
-    replaceWorker(workersAfter(waits, gate));
-    const [large, small] = await Promise.all([
-      cloudOf(bumpySphere(1, 400_000), { shared: true }),
-      cloudOf(few, { shared: true }),
-    ]);
-    replaceWorker(OriginalWorker);
-    await large.visibleFrom(at(0), { draft: true });
-    const order: string[] = [];
-    const { signal } = new AbortController();
-    const asked = [
-      large.visibleFrom(at(0), { signal }).then(() => order.push("large")),
-      small.visibleFrom(at(0)).then(() => order.push("small")),
-    ];
-    Atomics.store(gate, 0, 1);
-    Atomics.notify(gate, 0);
-    await Promise.all(asked);
-    expect(order).toEqual(["small", "large"]);
-  });
-
-  it("is answered all the same if its cloud's thread forgets the draft", async () => {
-    const one = await cloudOf(many);
-    await one.visibleFrom(at(0), { draft: true });
-    await one.visibleFrom(at(1), { draft: true, sample: 500 });
-    const { signal } = new AbortController();
-    expect(await one.visibleFrom(at(0), { signal })).toEqual(local.visibleFrom(at(0)));
-    expect(await one.visibleFrom(at(0), { signal, vote: 3 })).toEqual(local.visibleFrom(at(0), { vote: 3 }));
-  });
+it("a view in slices lets other clouds of the shared worker be answered in between", async () => {
+  // The worker begins when both questions are there, however slow this thread is.
+  const gate = new Int32Array(new SharedArrayBuffer(4));
+  const waits = `const { parentPort, workerData } = require("node:worker_threads");
+    parentPort.on("message", ({ content }) => content.sliced && Atomics.wait(workerData, 0, 0))`;
+  replaceWorker(workersAfter(waits, gate));
+  const [large, small] = await Promise.all([
+    cloudOf(bumpySphere(1, 400_000), { shared: true }),
+    cloudOf(few, { shared: true }),
+  ]);
+  replaceWorker(OriginalWorker);
+  const order: string[] = [];
+  const { signal } = new AbortController();
+  const asked = [
+    large.visibleFrom(at(0), { looks: 2, signal }).then(() => order.push("large")),
+    small.visibleFrom(at(0)).then(() => order.push("small")),
+  ];
+  Atomics.store(gate, 0, 1);
+  Atomics.notify(gate, 0);
+  await Promise.all(asked);
+  expect(order).toEqual(["small", "large"]);
 });

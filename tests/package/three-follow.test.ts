@@ -1,4 +1,4 @@
-// Both filters for three.js: drafts in motion, the answer at rest, several cameras, nodes that wait.
+// Both filters for three.js: answers in motion, the answer at rest, several cameras, nodes that wait.
 import { init, PointCloud } from "hidden-point-removal";
 import { HiddenPointNodesFilter } from "hidden-point-removal/nodes";
 import { HiddenPointFilter } from "hidden-point-removal/three";
@@ -49,27 +49,26 @@ describe.each(BOTH)("%s", (_, make) => {
     ...(filter instanceof HiddenPointFilter ? filter.visible : filter.visible.get(points)!),
   ];
 
-  it("draws a draft, the exact answer, and at rest the answer of `settle`", async () => {
+  it("draws the exact answer, and at rest the answer of `settle`", async () => {
     const { points, geometry } = pointsOf(many);
     const { filter, changes, until } = filterFor(points, { exponent: 3, settle: { looks: 3 } });
     const camera = cameraAt(0, 0, 5);
     expect([filter.answer, filter.settled]).toEqual([null, false]);
     await until("looks", camera);
-    expect(changes.map(({ answer }) => answer)).toEqual(["draft", "operator", "looks"]);
-    const [draft, exact, looks] = [
-      local.visibleFrom([0, 0, 5], { exponent: 3, draft: true }).count,
+    expect(changes.map(({ answer }) => answer)).toEqual(["operator", "looks"]);
+    const [exact, looks] = [
       local.visibleFrom([0, 0, 5], { exponent: 3 }).count,
       local.visibleFrom([0, 0, 5], { looks: 3 }).count,
     ];
-    expect(changes.map(({ count }) => count)).toEqual([draft, exact, looks]);
+    expect(changes.map(({ count }) => count)).toEqual([exact, looks]);
     expect(drawn(geometry)).toEqual(seenFrom(camera, { looks: 3 }));
     expect(visibleOf(filter, points)).toEqual(drawn(geometry));
-    // The draft of a new view comes next, and is told.
+    // Until a new view is answered, the last answer stays.
     camera.position.set(1, 0, 5);
     filter.update(camera);
     expect([filter.answer, filter.settled]).toEqual(["looks", false]);
     await until("looks", camera);
-    expect(changes.slice(3).map(({ answer }) => answer)).toEqual(["draft", "operator", "looks"]);
+    expect(changes.slice(2).map(({ answer }) => answer)).toEqual(["operator", "looks"]);
   });
 
   it("draws all points, or the last answer, until the present view is answered", async () => {
@@ -111,7 +110,7 @@ describe.each(BOTH)("%s", (_, make) => {
     const { points, geometry } = pointsOf(many);
     const { filter, changes } = filterFor(points);
     const cameras = [cameraAt(0, 0, 5), cameraAt(0, 5, 0)] as const;
-    const seen = [new Set(seenFrom(cameras[0], { draft: true })), new Set(seenFrom(cameras[1], { draft: true }))];
+    const seen = [new Set(seenFrom(cameras[0])), new Set(seenFrom(cameras[1]))];
     let others = 0;
     for (let step = 0; step < 60; step++) {
       cameras.forEach((camera, i) => {
@@ -131,11 +130,11 @@ describe.each(BOTH)("%s", (_, make) => {
       )
       .toBe(true);
     expect(others).toBe(0);
-    expect(changes.map(({ answer }) => answer).sort()).toEqual(["draft", "draft", "operator", "operator"]);
+    expect(changes.map(({ answer }) => answer)).toEqual(["operator", "operator"]);
     for (const camera of cameras) {
       filter.update(camera);
       expect(drawn(geometry)).toEqual(seenFrom(camera));
-      expect(changes.filter((change) => change.camera === camera)).toHaveLength(2);
+      expect(changes.filter((change) => change.camera === camera)).toHaveLength(1);
     }
     filter.dispose();
     expect([geometry.index, geometry.drawRange]).toEqual([null, { start: 0, count: Infinity }]);
@@ -154,7 +153,7 @@ describe.each(BOTH)("%s", (_, make) => {
 
   it("refuses bad options", () => {
     const { points } = pointsOf(few);
-    for (const options of [{ stale: 1 }, { settle: { looks: 5 } }, { moveThreshold: "a" }]) {
+    for (const options of [{ stale: 1 }, { settle: { looks: 5 } }, { stale: "draft" }]) {
       expect(() => make(points, options)).toThrow(expect.objectContaining({ name: "HprError", code: "option" }));
     }
   });

@@ -9,7 +9,6 @@ import { WorkerPointCloud } from "../worker/client.js";
 import { FollowedView, see, type Seen } from "../worker/followed-view.js";
 
 interface Listener {
-  /** After this call, the answer's memory is reused. */
   answer: (answer: Visibility, kind: AnswerKind, milliseconds: number) => void;
   map: (map: VisibilityMap) => void;
   error: (error: Error) => void;
@@ -68,7 +67,7 @@ export class LayerCloud {
    * drawn until the next answer.
    */
   want(place: Place, settings: FollowSettings, drawsMaps: boolean): boolean {
-    const isMoved = this.#view.move(place, settings.moveThreshold, this.#cloud?.spacing ?? 0);
+    const isMoved = this.#view.move(place, this.#cloud?.spacing ?? 0);
     if (isMoved || this.#settings !== settings || this.#drawsMaps !== drawsMaps) {
       [this.#settings, this.#drawsMaps] = [settings, drawsMaps];
       this.#begin();
@@ -128,7 +127,6 @@ export class LayerCloud {
             return;
           }
           this.#tell.answer(answer, kind, milliseconds);
-          cloud.recycle(answer);
         };
       },
     );

@@ -28,9 +28,8 @@ export type VisiblePointCloudLayerProps<DataT = unknown> = PointCloudLayerProps<
   /** How each view is computed, and how answers follow the viewpoint. */
   visibility?: VisibilityOptions & FollowOptions;
   /**
-   * A new answer is drawn. `answer` says what it is: a draft may come before the exact answer. `visible`
-   * holds the indices of the points that are drawn; later answers use its memory again. Maps, by which the card leaves
-   * out points while the camera moves, are not told.
+   * A new answer is drawn. `answer` says what it is, and `visible` holds the indices of the points that are drawn.
+   * Maps, by which the card leaves out points while the camera moves, are not told.
    */
   onVisible?: ((answer: VisibleAnswer) => void) | null;
 };
@@ -187,7 +186,9 @@ export class VisiblePointCloudLayer<DataT = unknown> extends CompositeLayer<Visi
     const drawsMaps = frame.isOwn && this.context.device.type === "webgl";
     if (!drawsMaps && settings.mapped !== undefined && !hasSaid) {
       hasSaid = true;
-      console.info("hidden-point-removal: data in degrees takes no map of directions, so drafts are drawn");
+      console.info(
+        "hidden-point-removal: data in degrees takes no map of directions, so the last answer stays while the view moves",
+      );
     }
     if (cloud.want(place, settings, drawsMaps)) this.#drawAll();
   }

@@ -3,16 +3,10 @@ import type { Round } from "./follower.js";
 import { Pace } from "./pace.js";
 
 /**
- * What an answer is. `"draft"` holds all visible points and some hidden ones. `"operator"` is the exact
- * answer of one flip. `"looks"` is an answer of two or three looks. `"map"` is a map of directions, by which
- * the graphics card leaves out hidden points.
+ * What an answer is. `"operator"` is the exact answer of one flip. `"looks"` is an answer of two or three
+ * looks. `"map"` is a map of directions, by which the graphics card leaves out hidden points.
  */
-export type AnswerKind = "map" | "draft" | "operator" | "looks";
-
-/** Whether an answer only stands in for an exact one. */
-export function isStandIn(kind: AnswerKind): boolean {
-  return kind === "map" || kind === "draft";
-}
+export type AnswerKind = "map" | "operator" | "looks";
 
 /** One of the questions that are asked about a view, one after another. */
 export interface Stage<Options = unknown> {
@@ -34,10 +28,10 @@ export interface AskedStage<Options = unknown> extends Stage<Options> {
 
 /**
  * A view that moves, and how far its answers have come. With each move, the questions begin again
- * with the first one, the draft. A draft is always finished, so that a view in motion gets drafts. A
- * later question is given up when the view moves on, if a draft comes sooner than its answer.
+ * with the first one. The first one is always finished, so that a view in motion gets answers. A
+ * later question is given up when the view moves on.
  *
- *     draft ──► exact ──► (rest) ──► settled
+ *     map, or operator ──► (rest) ──► looks
  *       ▲ each move begins here
  */
 export class Refinement<Options = unknown> {
@@ -124,8 +118,8 @@ export class Refinement<Options = unknown> {
         return use(answer, stage);
       },
       isGivenUp: (error) => {
-        // If a draft or a map is refused, the exact question says why, or is answered.
-        if (isAbort(error) || (isStandIn(stage.kind) && isRefusal(error))) {
+        // If a map is refused, the exact question says why, or is answered.
+        if (isAbort(error) || (stage.kind === "map" && isRefusal(error))) {
           return true;
         }
         this.#end(stage);

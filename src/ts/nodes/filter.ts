@@ -38,17 +38,20 @@ export class HiddenPointNodesFilter extends GatheredFilter<CloudNode> {
    *   a radius is in the units of this space.
    * @throws HprError `option`.
    */
-  constructor(root: Object3D, options?: HiddenPointNodesFilterOptions);
-  /** @internal */
-  constructor(root: Object3D, options: HiddenPointNodesFilterOptions | undefined, patch?: PatchMaterial);
-  constructor(root: Object3D, options?: HiddenPointNodesFilterOptions, patch: PatchMaterial = patchMaterial) {
+  constructor(root: Object3D, options?: HiddenPointNodesFilterOptions) {
     if (typeof (root as unknown) !== "object" || (root as unknown) === null || !("isObject3D" in root)) {
       throw new HprError("option", `root must be a THREE.Object3D, got ${describe(root)}`);
     }
-    const settings = readNodesOptions(options, patch);
+    const settings = readNodesOptions(options);
     requireUniformScale(root);
     super(root, settings);
+    settings.patch = this.patch;
     this.drawing = new NodeSet(root, settings, this.refuseNode);
+  }
+
+  /** How materials are made to leave out hidden points. @internal */
+  protected get patch(): PatchMaterial {
+    return patchMaterial;
   }
 
   /** The indices of each node's points that are drawn, without the dimmed ones: copies. */

@@ -1,7 +1,7 @@
 import type { Camera, Points } from "three";
 
 import type { Round } from "../follow/follower.js";
-import { type AnswerKind, isStandIn } from "../follow/refinement.js";
+import type { AnswerKind } from "../follow/refinement.js";
 import type { Place } from "../query/place.js";
 import { CameraFilter, type Drawing } from "../three/camera-filter.js";
 import type { FollowedCamera } from "../three/cameras.js";
@@ -16,7 +16,7 @@ const LONGEST = 2000;
 export interface HiddenPointNodesFilterEvents {
   /**
    * A new answer is drawn. `count` is the number of visible points. `nodes` is the number of nodes
-   * in the cloud. `answer` says what the answer is: a map or a draft comes before the exact one. For a map, `count`
+   * in the cloud. `answer` says what the answer is: a map comes before the exact one. For a map, `count`
    * and `radius` are those of the last answer. Either `viewpoint` or `direction` is null. `radius` is 0 if the
    * inversion has none. The viewpoint, the direction and the radius are in the root's space.
    */
@@ -142,7 +142,7 @@ export abstract class GatheredFilter<Node extends GatheredNode> extends CameraFi
   #isPostponed(camera: FollowedCamera | undefined): boolean {
     const last = this.cameras.last;
     const isMapped = last?.answer === "map" && last.isMoving && performance.now() - this.#gatheredAt < LONGEST;
-    const isTurn = this.#isUnasked && camera !== undefined && isStandIn(camera.refinement.due!.kind);
+    const isTurn = this.#isUnasked && camera !== undefined && camera.refinement.due!.kind === "map";
     return !this.isEmpty && (isMapped || isTurn);
   }
 
@@ -181,7 +181,6 @@ export abstract class GatheredFilter<Node extends GatheredNode> extends CameraFi
         for (const { node, own } of gathered.split(answer)) count += this.drawing.answer(camera, node, own) ?? 0;
         this.#visible = count;
         this.#radius = answer.radius;
-        gathered.recycle(answer);
         return this.#told(place);
       },
       (map, place) => {

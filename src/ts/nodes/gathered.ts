@@ -121,11 +121,6 @@ export class Gathered<Node extends GatheredNode> {
     }
   }
 
-  /** Reuses the memory of an answer after it has been split. */
-  recycle(answer: Visibility): void {
-    this.#cloud?.recycle(answer);
-  }
-
   /** Disposes of the cloud. The next one begins empty. */
   drop(): void {
     void this.#cloud?.dispose();

@@ -1,7 +1,6 @@
 import type { Points } from "three";
 
 import { describe, HprError } from "../base/errors.js";
-import type { PatchMaterial } from "../three/map-material.js";
 import { type FilterSettings, type HiddenPointFilterOptions, readFilterOptions } from "../three/options.js";
 
 /** The options of a `HiddenPointFilter` for the cloud of all nodes, and a function that chooses the nodes. */
@@ -20,10 +19,7 @@ export interface NodesSettings extends FilterSettings {
   nodes: (() => Iterable<Points>) | undefined;
 }
 
-export function readNodesOptions(
-  options: HiddenPointNodesFilterOptions | undefined,
-  patch: PatchMaterial,
-): NodesSettings {
+export function readNodesOptions(options: HiddenPointNodesFilterOptions | undefined): NodesSettings {
   const { nodes, pending = "draw", ...others } = options ?? {};
   if (nodes !== undefined && typeof nodes !== "function") {
     throw new HprError("option", `nodes must be a function that returns the nodes, got ${describe(nodes)}`);
@@ -31,6 +27,6 @@ export function readNodesOptions(
   if ((pending as unknown) !== "draw" && (pending as unknown) !== "hide") {
     throw new HprError("option", `pending must be "draw" or "hide", got ${describe(pending)}`);
   }
-  const settings = readFilterOptions(options === undefined || typeof options === "object" ? others : options, patch);
+  const settings = readFilterOptions(options === undefined || typeof options === "object" ? others : options);
   return { ...settings, nodes, hidesPending: pending === "hide" };
 }

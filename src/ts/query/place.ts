@@ -4,19 +4,20 @@ export interface Place {
   readonly isDirection: boolean;
 }
 
-/** How far a direction of length 1 may turn for a `moveThreshold` of 1. */
-const TURN = 1e-3;
+/** A shorter move, as a share of the cloud's spacing, cannot be seen. */
+const MOVE = 1e-3;
+/** The same for a direction of length 1. */
+const TURN = 1e-6;
 
 /**
  * Whether an answer for `a` need not be asked again for `b`. NaN is equal to NaN, so that it is refused only once. `rounding`:
  * how far rounding alone may move a viewpoint.
  */
-export function isNear(a: Place, b: Place, moveThreshold: number, spacing: number, rounding = 0): boolean {
+export function isNear(a: Place, b: Place, spacing: number, rounding = 0): boolean {
   if (a.isDirection !== b.isDirection || a.from.length !== b.from.length) {
     return false;
   }
-  const share = a.isDirection ? TURN * Math.hypot(...a.from) : spacing;
-  const blur = moveThreshold * share + rounding;
+  const blur = (a.isDirection ? TURN * Math.hypot(...a.from) : MOVE * spacing) + rounding;
   const farthest = Number.isFinite(blur) ? blur : 0;
   return a.from.every((x, axis) => Math.abs(x - b.from[axis]!) <= farthest || Object.is(x, b.from[axis]));
 }

@@ -14,7 +14,7 @@ export interface UseHiddenPointFilterOptions extends HiddenPointFilterOptions {
   enabled?: boolean | undefined;
   /**
    * A new answer is drawn. `count` is the number of visible points. `milliseconds` is the time that it
-   * took. `answer` says what it is: a draft comes before the exact answer.
+   * took. `answer` says what it is: a map comes before the exact answer.
    */
   onChange?: ((change: { count: number; milliseconds: number; answer: AnswerKind }) => void) | undefined;
   /** The points or a view are refused. Without this callback, the error is an unhandled rejection. */

@@ -7,7 +7,7 @@ import { VisibilityMap } from "../cloud/visibility-map.js";
 import { Events as Sender } from "../follow/events.js";
 import { Follower, type Round } from "../follow/follower.js";
 import { Readiness } from "../follow/readiness.js";
-import { type AnswerKind, type AskedStage, isStandIn } from "../follow/refinement.js";
+import type { AnswerKind, AskedStage } from "../follow/refinement.js";
 import type { FollowSettings } from "../query/follow-options.js";
 import type { Place } from "../query/place.js";
 import type { VisibilityOptions } from "../query/view-options.js";
@@ -155,7 +155,7 @@ export abstract class CameraFilter<Events extends FilterEvents> extends Sender<E
         this.drawing.setStale(followed);
         followed.drawn = undefined;
       }
-      this.#sayDrafts();
+      this.#sayUnable();
     } catch (error) {
       this.follower.refuse(error);
       return;
@@ -216,7 +216,7 @@ export abstract class CameraFilter<Events extends FilterEvents> extends Sender<E
       const drawn = answer instanceof VisibilityMap ? drawMap(answer, place) : draw(answer, place);
       if (drawn === undefined) return undefined;
       this.follower.answered();
-      if (!isStandIn(kind)) this.readiness.resolve();
+      if (kind !== "map") this.readiness.resolve();
       const change = { ...drawn, milliseconds, answer: kind, camera: camera.camera };
       return () => {
         this.tell();
@@ -225,11 +225,13 @@ export abstract class CameraFilter<Events extends FilterEvents> extends Sender<E
     });
   }
 
-  /** Says once that drafts stand in for maps. */
-  #sayDrafts(): void {
+  /** Says once that no map can be drawn. */
+  #sayUnable(): void {
     if (this.#settings.mapped !== undefined && this.drawing.isAble === false && !this.#hasSaid) {
       this.#hasSaid = true;
-      console.info("hidden-point-removal: this renderer or material takes no map of directions, so drafts are drawn");
+      console.info(
+        "hidden-point-removal: this renderer or material takes no map of directions, so the last answer stays while the camera moves",
+      );
     }
   }
 

@@ -1,6 +1,6 @@
 import type { Camera } from "three";
 
-import { isStandIn, type Stage } from "../follow/refinement.js";
+import type { Stage } from "../follow/refinement.js";
 import { type FollowSettings, REST, stagesFor } from "../query/follow-options.js";
 import type { VisibilityOptions } from "../query/view-options.js";
 import { FollowedView } from "../worker/followed-view.js";
@@ -70,7 +70,7 @@ export class FollowedCameras {
   /** Reads the camera's place in the object's space. Returns whether it has moved. */
   look(followed: FollowedCamera, object: Space): boolean {
     const { place, rounding } = placeOf(followed.camera, object);
-    if (!followed.move(place, this.#settings.moveThreshold, this.#spacing, rounding)) return false;
+    if (!followed.move(place, this.#spacing, rounding)) return false;
     followed.refinement.moved(this.#stagesFor(followed));
     return true;
   }
@@ -88,7 +88,7 @@ export class FollowedCameras {
   }
 
   /**
-   * The camera whose question is due. Drafts and maps go first. With `begunOnly`, views that have no answer yet
+   * The camera whose question is due. Maps go first. With `begunOnly`, views that have no answer yet
    * are left out.
    */
   due(begunOnly: boolean): FollowedCamera | undefined {
@@ -96,7 +96,7 @@ export class FollowedCameras {
     for (const followed of this.#cameras.values()) {
       const isLeftOut = begunOnly && !followed.refinement.isBegun;
       const stage = followed.place !== undefined && !isLeftOut ? followed.refinement.due : undefined;
-      if (stage !== undefined && isStandIn(stage.kind)) return followed;
+      if (stage?.kind === "map") return followed;
       if (stage !== undefined) first ??= followed;
     }
     return first;

@@ -16,7 +16,7 @@ export interface HiddenPointFilterEvents {
   /**
    * A new answer for a camera. `count` is the number of points that are drawn; for a map, which the graphics
    * card tests the points against, it is that of the last answer. `milliseconds` is the time that it took.
-   * `answer` says what it is: a map or a draft comes before the exact answer.
+   * `answer` says what it is: a map comes before the exact answer.
    */
   change: { count: number; milliseconds: number; answer: AnswerKind; camera: Camera };
   /**
@@ -45,8 +45,7 @@ export interface HiddenPointFilterEvents {
  * changing its field of view does not. An orthographic camera sees along a direction
  * (`visibleFromDirection`): only turning it makes a new view.
  *
- * In motion, the newest draft is drawn. Then comes the exact answer, and at rest the answer of the
- * option `settle`. Several cameras may look at the points: call `update` with each of them, before its
+ * In motion, a map of directions is drawn (see `stale`), and at rest the answer of the option `settle`. Several cameras may look at the points: call `update` with each of them, before its
  * picture is rendered. Each has its own answers of one cloud.
  *
  * `update` notices changes and uses the new state: positions with a new version (`needsUpdate =
@@ -69,15 +68,13 @@ export class HiddenPointFilter extends CameraFilter<HiddenPointFilterEvents> {
    * @throws HprError `option`, `positions-type`, `too-large`. Errors that only the core can find
    *   (`non-finite`, the range of an option) may reject `ready` instead.
    */
-  constructor(points: Points, options?: HiddenPointFilterOptions);
-  /** @internal */
-  constructor(points: Points, options: HiddenPointFilterOptions | undefined, patch?: PatchMaterial);
-  constructor(points: Points, options?: HiddenPointFilterOptions, patch: PatchMaterial = patchMaterial) {
+  constructor(points: Points, options?: HiddenPointFilterOptions) {
     requirePoints(points);
-    const settings = readFilterOptions(options, patch);
+    const settings = readFilterOptions(options);
     requireUnfiltered(points.geometry);
     requireUniformScale(points);
     super(points, settings);
+    settings.patch = this.patch;
     this.#settings = settings;
     this.drawing = new Display(points, settings);
     try {
@@ -101,6 +98,11 @@ export class HiddenPointFilter extends CameraFilter<HiddenPointFilterEvents> {
     return this.drawing.count;
   }
 
+  /** How materials are made to leave out hidden points. @internal */
+  protected get patch(): PatchMaterial {
+    return patchMaterial;
+  }
+
   /** @internal */
   protected override get isEmpty(): boolean {
     return this.#cloud === undefined;
@@ -117,7 +119,6 @@ export class HiddenPointFilter extends CameraFilter<HiddenPointFilterEvents> {
       (answer) => {
         if (!this.drawing.drawn.isSame) return undefined;
         const count = this.drawing.answer(camera, answer.indices);
-        cloud.recycle(answer);
         this.#count = count;
         return { count };
       },

@@ -11,7 +11,7 @@ export interface HiddenPointFilterOptions extends VisibilityOptions, FollowOptio
   /**
    * Whether answers are computed in a worker, which all filters of a page share. Until an answer
    * arrives, the option `stale` says what is drawn. With `false`, `update` computes the answer at once
-   * and blocks, so that no draft is asked. Default true.
+   * and blocks. Default true.
    */
   worker?: boolean | undefined;
   /**
@@ -38,7 +38,7 @@ export interface FilterSettings extends FollowSettings {
   dimMaterial: Material | undefined;
   nonFinite: "error" | "skip";
   /** How materials are made to leave out hidden points. Undefined where points are drawn without them. */
-  patch: PatchMaterial | undefined;
+  patch?: PatchMaterial;
 }
 
 /** The share of its opacity that a hidden point keeps. */
@@ -46,7 +46,7 @@ export const DIMMED = 0.15;
 
 const OWN_OPTIONS = ["worker", "mode", "dimMaterial", "nonFinite"] as const;
 
-export function readFilterOptions(options: unknown, patch?: PatchMaterial): FilterSettings {
+export function readFilterOptions(options: unknown): FilterSettings {
   const given = givenOptions(options, VIEW_OPTIONS, FOLLOW_OPTIONS, OWN_OPTIONS);
   const view = pick(given, VIEW_OPTIONS);
   viewSettings(view, 3);
@@ -62,7 +62,6 @@ export function readFilterOptions(options: unknown, patch?: PatchMaterial): Filt
     dim,
     dimMaterial: readMaterial(given["dimMaterial"], dim),
     nonFinite: oneOf(given, "nonFinite", ["error", "skip"]),
-    patch,
   };
 }
 

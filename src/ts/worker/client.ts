@@ -214,7 +214,7 @@ export class WorkerPointCloud {
   }
 
   /**
-   * Follows a viewpoint that moves: the stream gives drafts, then exact answers. See {@link ViewStream}.
+   * Follows a viewpoint that moves. See {@link ViewStream}.
    *
    * @throws HprError `option`, `disposed`.
    */

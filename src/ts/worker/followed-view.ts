@@ -47,9 +47,9 @@ export class FollowedView {
   }
 
   /** Takes up the place of a frame. Returns whether it is new. `rounding`: how far rounding alone may move it. */
-  move(place: Place, moveThreshold: number, spacing: number, rounding = 0): boolean {
+  move(place: Place, spacing: number, rounding = 0): boolean {
     this.#before = this.place;
-    const isNew = this.place === undefined || !isNear(this.place, place, moveThreshold, spacing, rounding);
+    const isNew = this.place === undefined || !isNear(this.place, place, spacing, rounding);
     if (isNew) this.place = place;
     return isNew;
   }

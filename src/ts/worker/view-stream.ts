@@ -23,7 +23,7 @@ export interface ViewStreamOptions extends VisibilityOptions, FollowOptions {
 
 /** An answer, and the view that it belongs to. */
 export interface StreamedAnswer {
-  /** What the answer is: `"draft"` until the exact answer comes. */
+  /** What the answer is. */
   readonly answer: AnswerKind;
   readonly visibility: Visibility;
   /** x, y, z; null for a view along a direction. */
@@ -43,10 +43,9 @@ export interface StreamedCloud {
 }
 
 /**
- * The answers for one viewpoint that moves. While it moves, the stream gives the newest drafts. Then
- * it gives the exact answer, and at rest the answer with the options `settle`. The newest view goes
- * first: an exact answer that goes on from a draft is given up when the viewpoint moves on. A cloud
- * may have several streams, for instance one for each camera of a page.
+ * The answers for one viewpoint that moves: the newest exact answers, and at rest the answer with the
+ * options `settle`, which is given up when the viewpoint moves on. A cloud may have several streams, for
+ * instance one for each camera of a page.
  *
  * ```js
  * const stream = cloud.follow({ settle: { looks: 3 } });
@@ -55,7 +54,7 @@ export interface StreamedCloud {
  *   renderer.render(scene, camera);
  * });
  * for await (const { answer, visibility } of stream) {
- *   draw(visibility.indices); // answer is "draft", then "operator", then "looks"
+ *   draw(visibility.indices); // answer is "operator", then "looks"
  * }
  * ```
  *
@@ -165,10 +164,7 @@ export class ViewStream implements AsyncIterable<StreamedAnswer> {
 
   #want(place: Place): void {
     const size = this.#cloud.size();
-    const isSame =
-      this.#place !== undefined &&
-      size === this.#size &&
-      isNear(this.#place, place, this.#settings.moveThreshold, size.spacing);
+    const isSame = this.#place !== undefined && size === this.#size && isNear(this.#place, place, size.spacing);
     if (!isSame && !this.#isOver) {
       this.#place = place;
       this.#size = size;
