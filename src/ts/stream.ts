@@ -1,5 +1,6 @@
 export { HprError, type HprErrorCode } from "./base/errors.js";
 export type { ResolvedInversion } from "./query/view-options.js";
+export type { Crs, Unit } from "./formats/las/crs.js";
 export type { LazPerf } from "./formats/las/laz-perf.js";
 export { OctreeStep } from "./stream/look.js";
 export { type Octree, openOctree } from "./stream/octree.js";
@@ -7,4 +8,4 @@ export type { OctreeOptions, OctreeProgress, OctreeViewOptions } from "./stream/
 export type { Fetch } from "./stream/request.js";
 export type { PotreeFiles, RangeReader } from "./stream/source.js";
 export type { VisibleNode } from "./stream/survivors.js";
-export type { Box, Triple } from "./stream/tree.js";
+export type { Box, NodePoints, Triple } from "./stream/tree.js";

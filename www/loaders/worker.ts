@@ -2,7 +2,7 @@
 import type { LoadedCloud } from "../cloud/cloud.ts";
 import { prepareCloud } from "../cloud/prepare.ts";
 import { makeSample } from "../samples/generators.ts";
-import { download, downloadRanges } from "./download.ts";
+import { download } from "./download.ts";
 import { MAX_POINTS } from "../settings/limits.ts";
 import { checkedCloud } from "./limits.ts";
 import { LoadProblem, missingPart } from "./problem.ts";
@@ -65,23 +65,17 @@ async function load(request: WorkerRequest): Promise<LoadedCloud> {
   if (request.kind === "url" && !URL.canParse(".", request.url)) {
     throw new LoadProblem(`“${shortened(request.url)}” is not the address of a file.`);
   }
-  let blob: Blob;
-  if (request.kind === "file") {
-    blob = request.file;
-  } else if (/\.copc\.laz$/i.test(new URL(request.url, location.href).pathname)) {
-    const remote = await downloadRanges(name, request.url, downloading);
-    if ("read" in remote) {
-      const { readCopc } = await import("./las/copc.ts");
-      return check(await readCopc({ name, limit, streamFrom, onProgress: downloading }, remote.read, request.url));
-    }
-    blob = remote.blob;
-  } else {
-    blob = await download(name, request.url, downloading);
+  if (/\.copc\.laz$/i.test(name) && streamFrom !== undefined) {
+    const { overviewOf } = await import("./octree.ts");
+    const from = request.kind === "file" ? request.file : request.url;
+    const overview = await overviewOf(name, from, { limit, streamFrom });
+    if (overview !== null) return check(overview);
   }
+  const blob = request.kind === "file" ? request.file : await download(name, request.url, downloading);
   if (blob.size === 0) throw new LoadProblem(`${name} is empty.`);
   progress("Reading", null);
   const base = request.kind === "url" ? new URL(".", request.url).href : undefined;
   // Samples do not need it, and the first cloud is one.
   const { readCloud } = await import("./read.ts");
-  return check(await readCloud({ name, blob, limit, streamFrom, onProgress, base, damaged, chosen }));
+  return check(await readCloud({ name, blob, limit, onProgress, base, damaged, chosen }));
 }

@@ -2,7 +2,7 @@
 import { init, type MergeOptions } from "hidden-point-removal";
 import { type Octree, openOctree } from "hidden-point-removal/stream";
 import type { Streamed } from "../cloud/cloud.ts";
-import { startLazPerf } from "../loaders/las/perf.ts";
+import { startLazPerf } from "../loaders/decoders.ts";
 import { LoadProblem } from "../loaders/problem.ts";
 import type { StreamReply, StreamStep, StreamTold, StreamView } from "./protocol.ts";
 

@@ -1,6 +1,7 @@
 import type { Copc, Hierarchy } from "copc";
 
 import { asError, HprError } from "../base/errors.js";
+import { crsOf } from "../formats/las/crs.js";
 import type { ChunkLayout, LazPerf } from "../formats/las/laz-perf.js";
 import { checkRecords, decompress, hasColors } from "./laz-chunk.js";
 import type { OctreeSettings } from "./options.js";
@@ -68,6 +69,7 @@ class CopcTree extends Tree {
       bounds: { min: corner(header.min), max: corner(header.max) },
       scale: corner(header.scale),
       offset: corner(header.offset),
+      crs: crsOf(copc.wkt === undefined ? {} : { wkt: copc.wkt }) ?? undefined,
     });
     this.#layout = { format: header.pointDataRecordFormat, rowBytes: header.pointDataRecordLength };
     checkRecords(name, this.#layout);

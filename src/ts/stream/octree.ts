@@ -1,6 +1,8 @@
 import { HprError } from "../base/errors.js";
+import { concatenated } from "../base/memory.js";
 import { PointCloud } from "../cloud/cloud.js";
 import type { MergeOptions } from "../cloud/merge.js";
+import type { Crs } from "../formats/las/crs.js";
 import { untilAborted } from "../worker/abort.js";
 import { NodeCache } from "./cache.js";
 import { openCopc } from "./copc.js";
@@ -16,7 +18,10 @@ import {
 import { openPotree } from "./potree.js";
 import { filesOf, type PotreeFiles, type RangeReader } from "./source.js";
 import { type Estimate, estimateSpacing } from "./spacing.js";
-import type { Box, Tree } from "./tree.js";
+import type { Box, NodePoints, OctreeNode, Tree, Triple } from "./tree.js";
+
+/** The number of nodes of the coarsest levels that are fetched at the same time. */
+const AT_ONCE = 6;
 
 /**
  * Opens an octree of points, without reading its points: COPC or Potree 2 (uncompressed).
@@ -69,6 +74,17 @@ export class Octree {
     return this.#tree.facts.bounds ?? this.#tree.facts.cube;
   }
 
+  /** A coordinate is an integer times the scale, plus the offset: for each axis. */
+  get grid(): { readonly scale: Triple; readonly offset: Triple } {
+    const { scale, offset } = this.#tree.facts;
+    return { scale, offset };
+  }
+
+  /** The coordinate reference system, if the file names one. */
+  get crs(): Crs | undefined {
+    return this.#tree.facts.crs;
+  }
+
   /** The number of points that are kept for the next views. */
   get cached(): number {
     return this.#cache.points;
@@ -90,6 +106,36 @@ export class Octree {
   visibleFrom(viewpoint: ArrayLike<number>, options?: OctreeViewOptions): AsyncGenerator<OctreeStep, void, undefined> {
     this.#requireOpen();
     return this.#steps(viewRequest(viewpoint, options));
+  }
+
+  /**
+   * The points of the coarsest levels, which are spread evenly: of the first one, and of as many more as there are
+   * without exceeding `most` points.
+   *
+   * @throws HprError (as a rejection) `load`, `disposed`, `too-large`.
+   */
+  async coarse(most: number): Promise<NodePoints> {
+    this.#requireOpen();
+    const chosen: OctreeNode[] = [];
+    let points = 0;
+    for (let level = [this.#tree.root]; level.length > 0; level = level.flatMap(({ children }) => children)) {
+      for (const node of level) await this.#tree.list(node);
+      points += level.reduce((sum, { count }) => sum + count, 0);
+      if (chosen.some(({ count }) => count > 0) && points > most) break;
+      chosen.push(...level);
+    }
+    const parts: NodePoints[] = [];
+    for (let i = 0; i < chosen.length; i += AT_ONCE) {
+      parts.push(...(await Promise.all(chosen.slice(i, i + AT_ONCE).map((node) => this.#cache.load(node)))));
+    }
+    const positions = concatenated(parts.map((part) => part.positions));
+    const colors = parts.some((part) => part.colors) ? new Uint16Array(positions.length) : undefined;
+    let at = 0;
+    for (const part of parts) {
+      if (part.colors) colors!.set(part.colors, at);
+      at += part.positions.length;
+    }
+    return { positions, colors };
   }
 
   /**

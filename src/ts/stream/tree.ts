@@ -1,3 +1,4 @@
+import type { Crs } from "../formats/las/crs.js";
 import { broken, type Part } from "./source.js";
 
 /** Three numbers: x, y, z. */
@@ -48,6 +49,7 @@ export interface TreeFacts {
   /** A coordinate is an integer times the scale, plus the offset. */
   scale: Triple;
   offset: Triple;
+  crs?: Crs | undefined;
 }
 
 /** Octrees are less deep. A deeper one contains itself. */
