@@ -1,5 +1,5 @@
-// npm run test:scale [-- --points N] [--only NAME …]: the tests of the Python package with Dask, LAZ and Parquet, and
-// then clouds in tiles against the same clouds in one piece. Writes python/scale/RESULTS.md.
+// npm run test:scale [-- --points N] [--files N]: the tests of the Python package with Dask, LAZ and Parquet, and
+// then tiles against one cloud.
 import { buildPackage } from "./build/package.js";
 import { buildWasm } from "./build/wasm.js";
 import { pytest } from "./checks/python.js";
@@ -8,11 +8,11 @@ import { Problem, mustRun } from "./lib/run.js";
 import { python, setUpPython } from "./setup/python.js";
 import { setUpForBuild } from "./setup/setup.js";
 
-/** The optional packages of python/pyproject.toml. */
-const DISTRIBUTED = ["dask[distributed]>=2024.1", "laspy[lazrs]>=2.5", "pyarrow>=14", "scipy>=1.11"];
+/** The optional packages of python/pyproject.toml, and that of `SeenBy.matrix`. */
+const OPTIONAL = ["dask[distributed]>=2024.1", "laspy[lazrs]>=2.5", "pyarrow>=14", "scipy>=1.11"];
 
 await command(async () => {
-  const lacking = await setUpPython(DISTRIBUTED);
+  const lacking = await setUpPython(OPTIONAL);
   if (lacking !== undefined) throw new Problem(`The tests of tiles cannot run here: ${lacking}.`);
   // The answers are compared with those of the npm package.
   await setUpForBuild();
@@ -22,7 +22,12 @@ await command(async () => {
   if (failed > 0) throw new Problem(`${failed} tests of the Python package failed.`);
   if (left > 0) throw new Problem(`${left} tests of the Python package were skipped.`);
   const asked = process.argv.slice(3);
-  await mustRun(python, ["python/scale/suite.py", "--write", ...asked], "Tiles answer otherwise than one piece", {
-    show: "results",
-  });
+  await mustRun(
+    python,
+    ["python/scale/suite.py", ...asked],
+    "Tiles answer otherwise than one cloud, or take too much",
+    {
+      show: "results",
+    },
+  );
 });

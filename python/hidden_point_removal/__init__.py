@@ -13,8 +13,8 @@ viewpoint, and those on the convex hull of the flipped cloud and the viewpoint a
 
 from __future__ import annotations
 
-from ._native import Horizon, HprError, PointCloud, VisibilityMap, merge_visible, share_visible
-from .answers import Calibration, Panorama, Placement, SeenBy, Share, Visibility, colmap_vis, orient_normals
+from ._native import Horizon, HprError, PointCloud, VisibilityMap, merge_visible
+from .answers import Calibration, Panorama, Placement, SeenBy, Visibility, colmap_vis, orient_normals
 from .cameras import CameraOfImage, read_cameras
 from .transfer import transfer
 
@@ -27,7 +27,6 @@ __all__ = [
     "Placement",
     "PointCloud",
     "SeenBy",
-    "Share",
     "Visibility",
     "VisibilityMap",
     "colmap_vis",
@@ -35,7 +34,6 @@ __all__ = [
     "merge_visible",
     "orient_normals",
     "read_cameras",
-    "share_visible",
     "transfer",
 ]
 __version__ = "0.1.0"

@@ -5,9 +5,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from typing_extensions import NotRequired, Unpack
 
-from .answers import Calibration, Panorama, Placement, SeenBy, Share, Visibility
+from .answers import Calibration, Panorama, Placement, SeenBy, Visibility
 
-Rule = Literal["auto", "search", "opposite"]
+Rule = Literal["auto", "opposite"]
 Inversion = Literal["spherical"] | dict[str, float | str]
 
 class Within(TypedDict):
@@ -30,19 +30,11 @@ class Options(TypedDict):
     inversion: NotRequired[Inversion | None]
     """ "spherical", {"power": number} or {"exponential": number or "auto"}."""
     looks: NotRequired[Literal[2, 3] | None]
-    """Two or three hulls, each trusted where it is sure. Excludes radius, exponent, inversion and draft."""
+    """Two or three hulls, each trusted where it is sure. Excludes radius, exponent and inversion."""
     scores: NotRequired[bool | None]
     """With `looks` only: the answer then has a score for each index."""
     thickness: NotRequired[float | Literal["auto"] | None]
     """With `looks` only: how far behind the surface before it a point may be seen. Default "auto", by the noise."""
-    denoise: NotRequired[int | None]
-    """Each point is projected on the plane of its k nearest points before the view."""
-    vote: NotRequired[int | None]
-    """A point is visible if more than 0.4 of itself and its k nearest points are."""
-    draft: NotRequired[bool | None]
-    """An early answer. It contains all visible points, and some hidden ones."""
-    sample: NotRequired[int | None]
-    """Only an even sample of about this many points takes part."""
     within: NotRequired[Within | None]
     """Only these points take part, as if the cloud held no others."""
     threads: NotRequired[int | None]
@@ -246,14 +238,4 @@ def merge_visible(
 
     Each part is (positions, ids): the visible points of one part of the cloud, with the caller's number of each.
     The answer is exact: visible(A + B) = visible(visible(A) + visible(B)).
-    """
-
-def share_visible(
-    own: ArrayLike, others: ArrayLike, boxes: ArrayLike, viewpoint: ArrayLike, **options: Unpack[MergeOptions]
-) -> Share:
-    """Which of the own points of a cloud are visible, if only a part of the cloud is at hand?
-
-    `others` are points near the own ones. All further points of the cloud are in `boxes`, of the shape (n, 2, 3): the
-    lowest and the highest coordinates of each. If points are undecided, ask again with them as own points. The other
-    needed points and the points of the missing boxes are then others, and these boxes are left out.
     """

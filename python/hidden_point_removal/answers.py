@@ -20,7 +20,7 @@ class Visibility:
     radius: R of the flipping sphere; 0 where the inversion has none.
     exponent: log10(R / farthest distance); 0 where the inversion has none.
     evaluations: how many hulls the choice of R took.
-    exact: False only for drafts and samples.
+    exact: True: the answer is final.
     inversion: the inversion that was used, with numbers only.
     pixels: where each visible point is in the camera's image, x and y: shape (count, 2). None without a camera.
     depths: the depth of each visible point along the optical axis. None without a camera.
@@ -79,19 +79,6 @@ class Placement(NamedTuple):
     """The indices that at least one of them sees, ascending."""
     unseen: NDArray[np.uint32]
     """The indices that no candidate sees, ascending."""
-
-
-class Share(NamedTuple):
-    """What is known of one sector of a cloud. All lists ascend."""
-
-    visible: NDArray[np.uint32]
-    """The indices of own points that are visible in the whole cloud. This is certain."""
-    undecided: NDArray[np.uint32]
-    """The indices of own points that may be visible or hidden. The others are decided."""
-    needed: NDArray[np.uint32]
-    """The indices of the given points, own ones first, that can still hide others."""
-    missing: NDArray[np.uint32]
-    """The numbers of the boxes whose points may hide undecided points."""
 
 
 class Calibration(NamedTuple):

@@ -49,7 +49,7 @@ def transfer(
     sampling: "nearest" (default) or "bilinear", between four pixels; not with "vote".
     on_progress: is called with the share of the cameras that is done. It must not change the cloud. An exception in it
         ends the question.
-    Options: those of `PointCloud.visible_from`. Not with draft and scores.
+    Options: those of `PointCloud.visible_from`. Not with scores.
 
     Returns (values, seen): float32 of shape (n,) or (n, channels) in the images' own scale, NaN where nothing is seen;
     and uint32, how many cameras gave a value to each index.
@@ -61,9 +61,8 @@ def transfer(
         raise refusal("option", "sampling bilinear cannot be combined with merge vote")
     if not isinstance(cloud, PointCloud):
         raise refusal("option", f"an argument must not be {cloud!r:.60}")
-    for name in ("draft", "scores"):
-        if options.get(name) is not None and options[name] is not False:
-            raise refusal("option", f"{name} cannot be combined with transfer")
+    if options.get("scores") is not None and options["scores"] is not False:
+        raise refusal("option", "scores cannot be combined with transfer")
     if all(options.get(name) is None for name in ("looks", "radius", "exponent", "inversion")):
         options["looks"] = 3
     options["scores"] = weigh == "score"

@@ -1,216 +1,178 @@
-"""Tiles against one piece: python suite.py --points 2000000 [--only PART ...] [--write] [--keep FOLDER]
+"""Tiles against one cloud: python suite.py [--points 5000000] [--files 16]
 
-Compares the answers of `visible_from_tiles` on a Dask cluster with those of one cloud, ends workers and commands in
-the middle, and measures memory and the shares of tiles that are skipped. Ends with status 1 if anything differs.
-`--write` puts each part into its section of RESULTS.md. With `--keep` the tiles and the finished answers of a comparison
-stay in a folder, and the same command goes on from there.
+Cuts a generated city into LAZ files and asks it from five viewpoints: as one cloud, by the plain lines below, by
+`visible_from_tiles`, by a process that is killed and goes on, and on a Dask cluster whose worker is killed. Each runs in a
+process of its own. Ends with status 1 if an answer differs, or if the tiles take more than 1.1 times the processor time or
+memory of the plain lines.
 """
 
 from __future__ import annotations
 
 import argparse
+import hashlib
 import json
 import os
-import platform
-import re
+import resource
+import signal
+import subprocess
 import sys
 import tempfile
+import threading
 import time
-from contextlib import contextmanager, nullcontext
 from pathlib import Path
 
+import laspy
 import numpy as np
 
-from city import UTM, VIEWPOINTS, city, cut, write
-from killed import Killer, command, kill_when_kept
-from pieces import QUESTIONS, WORKERS, ask_whole, cluster, compare, differences, peaks, share
+from hidden_point_removal import Horizon, PointCloud, merge_visible
+from hidden_point_removal.tiles import visible_from_tiles
 
-from hidden_point_removal.distributed import plan, sectors, visible_from_tiles
-
-HERE = Path(__file__).parent
-
-#: The ways to cut the city into tiles: title, files, precision, place.
-CASES = {
-    "spatial": ("Squares of the ground, LAZ, map coordinates", "LAZ", np.float64, UTM),
-    "random": ("Random cut, NumPy files, float32", "NumPy", np.float32, np.zeros(3)),
-}
-PARTS = [*CASES, "sectors", "workers", "command"]
+#: Map coordinates (UTM), as surveys have them.
+UTM = np.array([636_000.0, 849_000.0, 400.0])
+#: On a street, in a house, in the plane of a wall, from the side, from above.
+PLACES = [[500, 502, 1.7], [445, 445, 3], [430, 500, 1.7], [-300, -400, 350], [500, 500, 1500]]
+EYES = [(np.array(place) + UTM).tolist() for place in PLACES]
+OPTIONS = {"inversion": {"exponential": 1.0}}
 
 
-class Report:
-    """The lines of one part. `keep` stores what there is so far."""
-
-    def __init__(self, title, is_stored):
-        self.lines = []
-        self.wrong = 0
-        self._title = title
-        self._is_stored = is_stored
-        print(f"## {title}", flush=True)
-
-    def say(self, line=""):
-        print(line, flush=True)
-        self.lines.append(line)
-
-    def check(self, is_right, what):
-        if not is_right:
-            self.wrong += 1
-            self.say(f"**Wrong**: {what}")
-
-    def keep(self):
-        if self._is_stored:
-            store(self._title, self.lines)
+def city(count, seed=1):
+    """Ground, walls and roofs on a square of 1 km, in whole millimetres: (count, 3)."""
+    random = np.random.default_rng(seed)
+    # Two by two houses of 30 m in each block of 100 m, with streets of 20 m around the blocks.
+    starts = np.array([block + at for block in range(0, 1000, 100) for at in (10.0, 60.0)])
+    houses = np.stack(np.meshgrid(starts, starts, indexing="ij"), axis=-1).reshape(-1, 2)
+    heights = np.random.default_rng(5).uniform(8, 60, len(houses))
+    ground, walls, roofs = random.multinomial(count, [0.4, 0.45, 0.15])
+    parts = [np.column_stack([random.uniform(0, 1000, (ground, 2)), random.normal(0, 0.02, ground)])]
+    house, along, across = random.integers(0, 400, walls), random.uniform(0, 30, walls), random.choice([0.0, 30.0], walls)
+    turned = random.random(walls) < 0.5
+    sides = np.column_stack([np.where(turned, along, across), np.where(turned, across, along)])
+    parts.append(np.column_stack([houses[house] + sides, random.uniform(0, 1, walls) * heights[house]]))
+    house = random.integers(0, 400, roofs)
+    parts.append(np.column_stack([houses[house] + random.uniform(0, 30, (roofs, 2)), heights[house]]))
+    return np.round(np.concatenate(parts), 3) + UTM
 
 
-def main():
-    parser = argparse.ArgumentParser()
-    parser.add_argument("--points", type=int, default=2_000_000)
-    parser.add_argument("--only", nargs="+", choices=PARTS)
-    parser.add_argument("--write", action="store_true")
-    parser.add_argument("--keep", type=Path)
-    asked = parser.parse_args()
-    wrong = 0
-    with tempfile.TemporaryDirectory(prefix="hpr-scale-") as folder:
-        for part in asked.only or PARTS:
-            kept = asked.keep if asked.keep and part in CASES else Path(folder)
-            wrong += run(part, kept, asked.points, asked.write)
-    print(f"{wrong} wrong")
-    sys.exit(wrong > 0)
+def write(folder, count, files):
+    """The city in squares of the ground, as LAZ files."""
+    points, side = city(count), round(files**0.5)
+    column, row = (np.clip((points - UTM)[:, axis] * side / 1000, 0, side - 1).astype(int) for axis in (0, 1))
+    for number in range(side * side):
+        las = laspy.LasData(laspy.LasHeader(point_format=6, version="1.4"))
+        las.header.scales, las.header.offsets = [0.001] * 3, UTM
+        las.x, las.y, las.z = points[row * side + column == number].T
+        las.write(folder / f"{number:03}.laz")
 
 
-def run(part, folder, points, is_stored):
-    """Runs one part and returns how much was wrong."""
-    if part in CASES:
-        name, *rest = CASES[part]
-        report = Report(f"{name}: {points:,} points", is_stored)
-        compare(report, folder / f"{part} {points}", points, part, *rest)
-    elif part == "sectors":
-        report = Report(f"Sectors of the directions: {points:,} points", is_stored)
-        in_sectors(report, folder / part, points)
-    else:
-        title, check = OTHERS[part]
-        report = Report(title, is_stored)
-        check(report, folder / part)
-    report.keep()
-    return report.wrong
+def whole(paths, _folder):
+    cloud = PointCloud(np.concatenate([laspy.read(path).xyz for path in paths]))
+    return [cloud.visible_from(eye, **OPTIONS).indices.astype(np.uint64) for eye in EYES]
 
 
-@contextmanager
-def divided(merged):
-    """Merges of at most so many points, sectors of half as many, and horizons of a sixtieth of them.
-
-    So a small cloud is divided among sectors as a large one is.
-    """
-    before = plan.MERGED_POINTS, sectors.SECTOR_POINTS, plan.HORIZON_POINTS
-    plan.MERGED_POINTS, sectors.SECTOR_POINTS, plan.HORIZON_POINTS = merged, merged // 2, merged // 60
-    try:
-        yield
-    finally:
-        plan.MERGED_POINTS, sectors.SECTOR_POINTS, plan.HORIZON_POINTS = before
-
-
-def in_sectors(report, folder, count):
-    """Too many points for one merge: the same answers from sectors as from one piece."""
-    paths = write(folder, [tile + UTM for tile in cut(city(count), "spatial")], "NumPy")
-    viewpoints = [(np.array(at) + UTM).tolist() for at in VIEWPOINTS.values()]
-    with divided(count // 20), cluster() as client:
-        answers = {
-            name: visible_from_tiles(paths, viewpoints, client=client, **options) for name, options in QUESTIONS.items()
-        }
-        memory = peaks(client)
-    ask_whole(folder / "whole", paths, viewpoints, {name: answer.options for name, answer in answers.items()})
-    report.say(
-        f"Merges take {count // 20:,} points at most, a sector has about {count // 40:,} of its own. \"Own\" is the largest "
-        "share of a sector times the number of sectors. \"Held\" are the points of all sectors together, and the largest "
-        "sector, as shares of the points that are divided. One merge is enough where no sectors are given."
-    )
-    report.say()
-    report.say("| viewpoint | inversion | divided | sectors | own | held, together | held, largest | rounds | differences |")
-    report.say("|---|---|---:|---:|---:|---:|---:|---:|---:|")
-    for inversion, answer in answers.items():
-        for number, at in enumerate(VIEWPOINTS):
-            different = differences(answer[number], np.load(folder / "whole" / f"{inversion} {number}.npy"))
-            report.check(different == 0, f"{at}, {inversion}: {different} differences in sectors")
-            own = answer.sectors[number]
-            if not own:
-                report.say(f"| {at} | {inversion} | 0 | – | – | – | – | – | {different} |")
-                continue
-            every = sum(sector.own for sector in own)
-            largest = max(sector.own for sector in own) * len(own) / every
-            report.say(
-                f"| {at} | {inversion} | {every:,} | {len(own)} | {largest:.2f} "
-                f"| {share(sum(sector.held for sector in own), every)} "
-                f"| {share(max(sector.held for sector in own), every)} "
-                f"| {max(sector.rounds for sector in own)} | {different} |"
-            )
-            report.check(largest <= 1.5, f"{at}, {inversion}: a sector has {largest:.2f} times its share")
-    report.say()
-    shown = ", ".join(f"{process} {value:.0f} MB" for process, value in memory.items())
-    whole = json.loads((folder / "whole" / "facts.json").read_text())
-    report.say(f"Largest memory: {shown}; one piece {whole['memory']:.0f} MB.")
-    report.say()
+def plain(paths, _folder):
+    """What is asked of tiles, in the fewest lines."""
+    counts = [laspy.open(path).header.point_count for path in paths]
+    horizons = [Horizon(eye, **OPTIONS) for eye in EYES]
+    for path in paths:
+        sample = laspy.read(path).xyz[::50]
+        for horizon in horizons:
+            horizon.add(sample)
+    parts = [[] for _ in EYES]
+    for path, first in zip(paths, np.cumsum([0, *counts])):
+        xyz = laspy.read(path).xyz
+        for eye, horizon, part in zip(EYES, horizons, parts):
+            left = horizon.screen(xyz)
+            keep = PointCloud(xyz[left]).visible_from(eye, **OPTIONS).indices
+            part.append((xyz[left[keep]], (left[keep] + first).astype(np.uint64)))
+    return [merge_visible(part, eye, **OPTIONS) for part, eye in zip(parts, EYES)]
 
 
-def kill_workers(report, folder):
-    """A worker that is killed in any stage changes nothing."""
-    paths = write(folder, [tile + UTM for tile in cut(city(300_000), "spatial")], "NumPy")
-    viewpoints = [(np.array(VIEWPOINTS[at]) + UTM).tolist() for at in ("street", "oblique")]
-    expected = [answer.tobytes() for answer in visible_from_tiles(paths, viewpoints)]
-    in_one_merge = ("facts", "neighbors", "horizon_points", "screen", "merge")
-    for kernel in (*in_one_merge, "divide", "piece_of", "begin", "blocks_of", "go_on"):
-        sizes = nullcontext() if kernel in in_one_merge else divided(30_000)
-        with sizes, cluster() as client:
-            killer = Killer(client, kernel)
-            killer.start()
-            answers = visible_from_tiles(paths, viewpoints, client=client, cache=False)
-            killer.end()
-        same = [answer.tobytes() for answer in answers] == expected
-        said = "not hit" if killer.hit is None else "the same bytes" if same else "OTHER BYTES"
-        report.say(f"- SIGKILL in `{kernel}`: {said}")
-        report.check(same and killer.hit is not None, f"killed in {kernel}")
-    report.say()
+def tiles(paths, _folder):
+    return visible_from_tiles(paths, EYES, **OPTIONS)
 
 
-def kill_command(report, folder):
-    """A command that is killed goes on from the finished tiles."""
-    paths = write(folder / "tiles", [tile + UTM for tile in cut(city(300_000), "spatial")], "NumPy")
-    cameras = folder / "cameras.csv"
-    rows = [",".join(map(str, np.array(at) + UTM)) for at in VIEWPOINTS.values()]
-    cameras.write_text("\n".join(["x,y,z", *rows]) + "\n")
-    kept = kill_when_kept(command(folder / "tiles", cameras, folder / "seen"), folder / "seen" / ".work", 40)
-    for output in ("seen", "again"):
-        process = command(folder / "tiles", cameras, folder / output)
-        report.check(process.wait() == 0, "the command failed")
-    same = (folder / "seen/visible.parquet").read_bytes() == (folder / "again/visible.parquet").read_bytes()
-    report.say(
-        f"SIGKILL when {kept} of {len(paths)} tiles were finished. The same command then went on from them: "
-        f"{'the same bytes' if same else 'OTHER BYTES'} as a run in one go."
-    )
-    report.check(same and kept >= 40 and not (folder / "seen/.work").exists(), "the command killed")
-    report.say()
+def kept(paths, folder):
+    return visible_from_tiles(paths, EYES, out=folder / "out", **OPTIONS)
 
 
-def store(title, lines):
-    """Puts a section into RESULTS.md, in place of an older one of the same title."""
-    path = HERE / "RESULTS.md"
-    text = path.read_text() if path.exists() else HEAD
-    machine = f"Python {platform.python_version()}, NumPy {np.__version__}, {os.cpu_count()} processors, {WORKERS} workers"
-    body = "\n".join([f"## {title}", "", f"Measured on {time.strftime('%Y-%m-%d')} with {machine}.", "", *lines])
-    text = re.sub(rf"## {re.escape(title)}\n.*?(?=\n## |\Z)", "", text, flags=re.DOTALL).rstrip()
-    path.write_text(f"{text}\n\n{body.rstrip()}\n")
+def dask(paths, _folder):
+    """On two workers, one of which is killed half-way."""
+    from dask.distributed import Client
+
+    with Client(n_workers=2, threads_per_worker=1, dashboard_address=None) as client:
+        victims = [*client.run(os.getpid).values()][:1]
+
+        def kill(share):
+            if share > 0.5 and victims:
+                os.kill(victims.pop(), signal.SIGKILL)
+
+        return visible_from_tiles(paths, EYES, client, kill, **OPTIONS)
 
 
-OTHERS = {
-    "workers": ("Workers killed", kill_workers),
-    "command": ("The command killed", kill_command),
-}
+WAYS = {way.__name__: way for way in (whole, plain, tiles, kept, dask)}
 
-HEAD = """# Tiles against one piece
 
-Written by `npm run test:scale`. A generated city of 1 km² (`city.py`) is cut into tiles. `visible_from_tiles` asks them
-on a Dask cluster, `whole.py` asks all points in one cloud. "Merged" are the points that are left when every tile is
-screened. Tiles and bytes are skipped for this viewpoint: their box is hidden. Seconds are of a machine at work on other
-things, too.
-"""
+def one(name, folder):
+    """Asks in this process, and prints what it took. Its memory is `VmHWM`: it inherits `ru_maxrss` from its parent."""
+    started, clock = time.process_time(), time.monotonic()
+    answers = WAYS[name](sorted((folder / "city").glob("*.laz")), folder)
+    taken = time.process_time() - started
+    status = Path("/proc/self/status")
+    lines = status.read_text().splitlines() if status.exists() else []
+    memory = next((int(line.split()[1]) // 1024 for line in lines if line.startswith("VmHWM")), resource.getrusage(resource.RUSAGE_SELF).ru_maxrss >> 10)
+    digest = hashlib.sha256(b"".join(np.asarray(answer, np.uint64).tobytes() for answer in answers)).hexdigest()
+    print(json.dumps({"digest": digest, "visible": [len(answer) for answer in answers], "processor": taken, "memory": memory,
+                      "seconds": time.monotonic() - clock}))  # fmt: skip
+
+
+def start(name, folder):
+    return subprocess.Popen([sys.executable, __file__, "--way", name, "--folder", folder], stdout=subprocess.PIPE, text=True)
+
+
+def asked(name, folder):
+    output, _ = (process := start(name, folder)).communicate()
+    if process.returncode != 0:
+        sys.exit(f"{name} failed")
+    found = json.loads(output)
+    shown = f"{found['processor']:.1f} s of processor time, {found['seconds']:.1f} s, {found['memory']} MiB"
+    print(f"{name}: {found['visible']} visible, {shown}", flush=True)
+    return found
+
+
+def killed(folder):
+    """Kills the process that keeps results when half of them are there."""
+    process, files = start("kept", folder), 2 * len([*(folder / "city").iterdir()])
+    while process.poll() is None and len([*(folder / "out").glob("*.npz")]) < 0.75 * files:
+        time.sleep(0.01)
+    process.kill()
+    process.communicate()
+    print(f"killed when {len([*(folder / 'out').glob('*.npz')])} of {files} files were there")
+
+
+def main(folder, points, files):
+    (folder / "city").mkdir()
+    write(folder / "city", points, files)
+    expected, least = asked("whole", folder), asked("plain", folder)
+    killed(folder)
+    found = {name: asked(name, folder) for name in ("tiles", "kept", "dask")}
+    wrong = [f"{name} answers otherwise" for name, one in found.items() if one["digest"] != expected["digest"]]
+    own = found["tiles"]
+    wrong += [f"tiles take too much {name}" for name in ("processor", "memory") if own[name] > 1.1 * least[name]]
+    for problem in wrong:
+        print(f"Wrong: {problem}")
+    print(f"{len(wrong)} wrong")
+    sys.exit(len(wrong) > 0)
+
 
 if __name__ == "__main__":
-    main()
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--points", type=int, default=5_000_000)
+    parser.add_argument("--files", type=int, default=16)
+    parser.add_argument("--way", choices=WAYS)
+    parser.add_argument("--folder", type=Path)
+    given = parser.parse_args()
+    if given.way:
+        one(given.way, given.folder)
+    else:
+        with tempfile.TemporaryDirectory(prefix="hpr-scale-") as scratch:
+            main(Path(scratch), given.points, given.files)

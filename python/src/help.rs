@@ -6,8 +6,8 @@ macro_rules! asks {
     ($head:literal) => {
         concat!(
             $head,
-            ", radius=None, exponent=None, inversion=None, looks=None, scores=False, thickness=None, denoise=None, ",
-            "vote=None, draft=False, sample=None, within=None, threads=None)\n--\n"
+            ", radius=None, exponent=None, inversion=None, looks=None, scores=False, thickness=None, within=None, ",
+            "threads=None)\n--\n"
         )
     };
 }

@@ -1,6 +1,7 @@
 //! The hull of a part of a cloud, which screens the rest.
 
 use hidden_point_removal as core;
+use hidden_point_removal::{Options, Radius};
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -9,6 +10,7 @@ use crate::arrays::{Points, Positions, place};
 use crate::failure::{problem, refused};
 use crate::options;
 use crate::shared::Shared;
+use crate::visibility::shown_inversion;
 
 /// The hull of some points of a cloud, as seen from one viewpoint. What it hides is hidden in the whole cloud.
 ///
@@ -18,7 +20,12 @@ use crate::shared::Shared;
 #[pyclass(frozen, module = "hidden_point_removal")]
 pub struct Horizon {
     horizon: Shared<core::Horizon>,
+    viewpoint: [f64; 3],
+    options: Options,
 }
+
+/// What pickle makes a horizon of: the viewpoint, and the options.
+type Arguments<'py> = (([f64; 3],), Bound<'py, PyDict>);
 
 #[pymethods]
 impl Horizon {
@@ -35,7 +42,27 @@ impl Horizon {
             core::Horizon::new(viewpoint, &options).map_err(|error| refused(py, error))?;
         Ok(Self {
             horizon: Shared::new(horizon),
+            viewpoint,
+            options,
         })
+    }
+
+    /// For pickle and copy: the arguments of a new horizon. Its state is the points that hide the others.
+    fn __getnewargs_ex__<'py>(&self, py: Python<'py>) -> PyResult<Arguments<'py>> {
+        let options = PyDict::new(py);
+        if let Radius::Absolute(radius) = self.options.radius {
+            options.set_item("radius", radius)?;
+        }
+        options.set_item("inversion", shown_inversion(py, &self.options.inversion)?)?;
+        Ok(((self.viewpoint,), options))
+    }
+
+    fn __getstate__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        self.visible(py)
+    }
+
+    fn __setstate__(&self, py: Python<'_>, points: &Bound<'_, PyAny>) -> PyResult<()> {
+        self.add(py, points)
     }
 
     /// Adds points.

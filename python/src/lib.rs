@@ -12,7 +12,6 @@ mod map;
 mod options;
 mod parts;
 mod seen_by;
-mod share;
 mod shared;
 mod surfaces;
 mod surveys;
@@ -29,6 +28,5 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<map::VisibilityMap>()?;
     module.add_function(wrap_pyfunction!(parts::merge_visible, module)?)?;
     module.add_function(wrap_pyfunction!(camera::lenses, module)?)?;
-    module.add_function(wrap_pyfunction!(share::share_visible, module)?)?;
     Ok(())
 }

@@ -113,7 +113,9 @@ fn cone(towards: &Bound<'_, PyAny>) -> PyResult<([f64; 3], f64)> {
     };
     let entries = towards.cast::<PyDict>().map_err(|_| wrong())?;
     match (entries.get_item("direction")?, entries.get_item("angle")?) {
-        (None, None) => camera::read(towards, "towards")?.cone().map_err(|error| refused(py, error)),
+        (None, None) => camera::read(towards, "towards")?
+            .cone()
+            .map_err(|error| refused(py, error)),
         (Some(direction), Some(angle)) if entries.len() == 2 => {
             let angle = number(&angle).ok_or_else(wrong)?;
             Ok((place(&direction, "direction")?, angle))

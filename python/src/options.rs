@@ -8,17 +8,13 @@ use pyo3::types::{PyBool, PyDict};
 use crate::arrays::kind_of;
 use crate::failure::option;
 
-const NAMES: [&str; 12] = [
+const NAMES: [&str; 8] = [
     "radius",
     "exponent",
     "inversion",
     "looks",
     "scores",
     "thickness",
-    "denoise",
-    "vote",
-    "draft",
-    "sample",
     "within",
     "threads",
 ];
@@ -90,30 +86,24 @@ pub fn read(py: Python<'_>, given: Option<&Bound<'_, PyDict>>) -> PyResult<Asked
                 };
             }
             "thickness" => options.thickness = thickness(py, &value)?,
-            "denoise" => options.denoise = Some(count(py, &name, &value)?),
-            "vote" => options.vote = Some(count(py, &name, &value)?),
-            "sample" => options.sample = Some(count(py, &name, &value)?),
             "within" => how.mask = within(py, &value, options)?,
             "threads" => how.threads = Some(count(py, &name, &value)?),
-            "scores" => options.scores = truth(py, &name, &value)?,
-            _ => options.draft = truth(py, &name, &value)?,
+            _ => options.scores = truth(py, &name, &value)?,
         }
     }
     Ok(asked)
 }
 
 /// Refuses what a question about several cameras cannot answer.
-pub fn refuse_draft_and_scores(py: Python<'_>, options: &Options, name: &str) -> PyResult<()> {
-    for (word, is_given) in [("draft", options.draft), ("scores", options.scores)] {
-        if is_given {
-            return Err(option(py, format!("{word} cannot be combined with {name}")));
-        }
+pub fn refuse_scores(py: Python<'_>, options: &Options, name: &str) -> PyResult<()> {
+    if options.scores {
+        return Err(option(py, format!("scores cannot be combined with {name}")));
     }
     Ok(())
 }
 
 /// Reads an argument of a type that pyo3 knows. Another type is refused as any bad input is.
-pub fn given<'py, T: FromPyObject<'py>>(value: &Bound<'py, PyAny>) -> PyResult<T> {
+pub fn given<'py, T: for<'a> FromPyObject<'a, 'py>>(value: &Bound<'py, PyAny>) -> PyResult<T> {
     let refused = |_| {
         option(
             value.py(),
@@ -203,11 +193,7 @@ pub fn truths(py: Python<'_>, value: &Bound<'_, PyAny>) -> Option<Vec<bool>> {
 
 /// A rule for the radius, or a number.
 pub fn radius(py: Python<'_>, name: &str, value: &Bound<'_, PyAny>) -> PyResult<Radius> {
-    let words = [
-        ("auto", Radius::Auto),
-        ("search", Radius::Search),
-        ("opposite", Radius::Opposite),
-    ];
+    let words = [("auto", Radius::Auto), ("opposite", Radius::Opposite)];
     let wrong = |words| {
         let given = shown(value);
         option(py, format!("{name} must be a number{words}, got {given}"))
@@ -221,7 +207,7 @@ pub fn radius(py: Python<'_>, name: &str, value: &Bound<'_, PyAny>) -> PyResult<
         .find(|(known, _)| word.as_deref() == Some(known));
     rule.map(|(_, rule)| *rule)
         .or_else(|| number(value).map(Radius::Absolute))
-        .ok_or_else(|| wrong(r#" or "auto", "search" or "opposite""#))
+        .ok_or_else(|| wrong(r#", "auto" or "opposite""#))
 }
 
 /// Reads an inversion.

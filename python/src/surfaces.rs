@@ -24,7 +24,7 @@ impl PointCloud {
     ///     these directions get points and corners.
     /// origin: 3 numbers that positions in a shader are relative to. Default: 0 for float32, else the middle of the
     ///     cloud's box.
-    /// Options: those of `visible_from`. Not with draft, scores, vote, "search" and "opposite".
+    /// Options: those of `visible_from`. Not with scores and "opposite".
     /// Returns a `VisibilityMap`.
     #[pyo3(
         signature = (viewpoint, *, points=None, corners=None, towards=None, origin=None, **options),
@@ -55,7 +55,7 @@ impl PointCloud {
     ///
     /// viewpoint: 3 numbers.
     /// max_edge: float. Triangles with a longer edge are left out. Default 5 spacings.
-    /// Options: those of `visible_from`. Not with looks and draft.
+    /// Options: those of `visible_from`. Not with looks.
     /// Returns (`Visibility`, array of uint32 of shape (m, 3)): three indices for each triangle, counter-clockwise seen
     /// from the viewpoint.
     #[pyo3(signature = (viewpoint, max_edge=None, **options), text_signature = None)]
@@ -83,7 +83,7 @@ impl PointCloud {
     /// triangles: array of int of shape (t, 3), indices of a mesh to soften over. Default: the 6 nearest points.
     /// smoothing: int, rounds of softening.
     /// ambient: float, from 0 to 1.
-    /// Options: those of `visible_from`. Not with looks and draft.
+    /// Options: those of `visible_from`. Not with looks.
     /// Returns an array of float32, one brightness from 0 to 1 for each index.
     #[pyo3(signature = (lights, triangles=None, smoothing=1, ambient=0.0, **options), text_signature = None)]
     fn illuminate<'py>(

@@ -9,7 +9,7 @@ use crate::arrays::{numbers, place};
 use crate::camera;
 use crate::cloud::PointCloud;
 use crate::failure::{option, refused};
-use crate::options::{self, Asked, How, refuse_draft_and_scores};
+use crate::options::{self, Asked, How, refuse_scores};
 use crate::visibility::python;
 
 #[pymethods]
@@ -21,7 +21,7 @@ impl PointCloud {
     ///     sees only what is in its image.
     /// on_progress: is called with the share that is done. It must not change the cloud. An exception in it
     ///     ends the question.
-    /// Options: those of `visible_from`. Not with draft and scores.
+    /// Options: those of `visible_from`. Not with scores.
     /// Returns an array of uint32, one number for each index.
     #[pyo3(signature = (viewpoints, *, on_progress=None, **options), text_signature = None)]
     fn coverage<'py>(
@@ -53,7 +53,7 @@ impl PointCloud {
     /// weights: n numbers of at least 0, one for each index. Default 1 each.
     /// on_progress: is called with the share of the candidates that is done. It must not change the cloud. An exception
     ///     in it ends the question.
-    /// Options: those of `visible_from`. Not with draft and scores.
+    /// Options: those of `visible_from`. Not with scores.
     /// Returns a `Placement`.
     #[pyo3(
         signature = (candidates, count=None, share=None, weights=None, *, on_progress=None, **options),
@@ -102,7 +102,7 @@ impl PointCloud {
     /// width: int, 1 to 16384. Column 0 looks along +x, the column at a quarter of the width along +y.
     /// height: int, 1 to 16384. Row 0 is up.
     /// up: 3 numbers, the direction above row 0. Column 0 then looks along the part of +x that is perpendicular to it.
-    /// Options: those of `visible_from`. Not with draft and scores.
+    /// Options: those of `visible_from`. Not with scores.
     /// Returns a `Panorama`.
     #[pyo3(signature = (viewpoint, width, height, up=None, **options), text_signature = None)]
     fn panorama<'py>(
@@ -135,7 +135,7 @@ impl PointCloud {
     /// The radius that a rule chooses for a viewpoint.
     ///
     /// viewpoint: 3 numbers.
-    /// rule: "auto" (default), "search" or "opposite".
+    /// rule: "auto" (default) or "opposite".
     ///
     /// Returns (radius, exponent, evaluations): two float, and how many hulls the choice took.
     #[pyo3(
@@ -163,7 +163,7 @@ impl PointCloud {
     /// cameras: list of cameras, as for `visible_from_camera`.
     /// on_progress: is called with the share that is done. It must not change the cloud. An exception in it
     ///     ends the question.
-    /// Options: those of `visible_from`. Not with draft and scores.
+    /// Options: those of `visible_from`. Not with scores.
     /// Returns a `SeenBy`: `offsets`, `cameras`, `pixels` and `towards`, the rows of a sparse matrix.
     #[pyo3(signature = (cameras, *, on_progress=None, **options), text_signature = None)]
     fn seen_by<'py>(
@@ -175,7 +175,7 @@ impl PointCloud {
     ) -> PyResult<Bound<'py, PyAny>> {
         let cameras = camera::cameras(cameras)?;
         let asked = options::read(py, options)?;
-        refuse_draft_and_scores(py, &asked.options, "seen_by")?;
+        refuse_scores(py, &asked.options, "seen_by")?;
         let views = self.camera_views(py, &cameras, &asked, on_progress)?;
         python(py, "seen_by")?.call1((self.__len__(py)?, views))
     }

@@ -19,19 +19,15 @@ impl PointCloud {
     /// the viewpoint are visible (Katz, Tal and Basri 2007, section 3). The answer is exact for the flipped points.
     ///
     /// viewpoint: 3 numbers, in the cloud's units.
-    /// radius: float, "auto" (default), "search" or "opposite". R of the flipping sphere in the cloud's units, at least the
+    /// radius: float, "auto" (default) or "opposite". R of the flipping sphere in the cloud's units, at least the
     ///     distance of the farthest point; or the rule that chooses it. A larger R shows more points.
     /// exponent: float, at least 0. R = distance of the farthest point * 10**exponent, the paper's parameter.
     /// inversion: "spherical" (default), {"power": float} or {"exponential": float or "auto"}.
-    /// looks: 2 or 3. So many hulls, each trusted where it is sure: fewer errors, slower. Not with radius, exponent,
-    ///     inversion and draft.
+    /// looks: 2 or 3. So many hulls, each trusted where it is sure: fewer errors, slower. Not with radius, exponent
+    ///     and inversion.
     /// scores: bool. With looks: the answer has a score from 0 to 1 for each index.
     /// thickness: float or "auto" (default). With looks: how far behind the surface before it a point may lie and still be
     ///     seen, in the cloud's units.
-    /// denoise: int. Before the view, each point moves to the plane of its k nearest points.
-    /// vote: int. A point is visible if more than 0.4 of itself and its k nearest points are.
-    /// draft: bool. An early answer: all visible points, and some hidden ones.
-    /// sample: int. Only an even sample of about so many points takes part.
     /// within: dict of distance (float), box (two corners) and mask (n truth values). Only these points take part.
     /// threads: int, from 1 to 256. So many threads compute; they change no answer. Default: all cores from 200,000 points
     ///     on, else 1.
@@ -55,7 +51,7 @@ impl PointCloud {
     /// The points that can be seen along a direction, from infinitely far away: an orthographic view.
     ///
     /// direction: 3 numbers, the way the viewer looks. Their length does not matter.
-    /// Options: those of `visible_from`. Not with "search", "opposite", {"power": float} and a distance in within.
+    /// Options: those of `visible_from`. Not with "opposite", {"power": float} and a distance in within.
     /// Returns a `Visibility`.
     #[pyo3(signature = (direction, **options), text_signature = None)]
     fn visible_from_direction<'py>(
@@ -150,7 +146,7 @@ impl PointCloud {
     /// viewpoint: 3 numbers.
     /// positions: array of shape (m, 3). Each place is asked alone, with the radius of the view without it. One that is
     ///     farther than the radius is not visible.
-    /// Options: those of `visible_from`. Not with draft and scores.
+    /// Options: those of `visible_from`. Not with scores.
     /// Returns an array of bool, one for each place.
     #[pyo3(signature = (viewpoint, positions, **options), text_signature = None)]
     fn sees<'py>(

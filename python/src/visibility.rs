@@ -40,12 +40,8 @@ fn made<'py>(
     [pixels, depths]: [Py<PyAny>; 2],
 ) -> PyResult<Bound<'py, PyAny>> {
     let inversion = match seen.inversion() {
-        Inversion::Power(power) => [("power", power)].into_py_dict(py)?.into_any(),
-        Inversion::Exponential(Exponential::Scale(scale)) => {
-            [("exponential", scale)].into_py_dict(py)?.into_any()
-        }
         Inversion::Looks(_) => [("looks", seen.looks())].into_py_dict(py)?.into_any(),
-        _ => "spherical".into_pyobject(py)?.into_any(),
+        other => shown_inversion(py, &other)?,
     };
     let scores = seen.scores();
     let scores = (!scores.is_empty()).then(|| scores.to_vec().into_pyarray(py));
@@ -64,6 +60,17 @@ fn made<'py>(
         depths,
         length,
     ))
+}
+
+/// An inversion as an option, with numbers only.
+pub fn shown_inversion<'py>(py: Python<'py>, inversion: &Inversion) -> PyResult<Bound<'py, PyAny>> {
+    Ok(match *inversion {
+        Inversion::Power(power) => [("power", power)].into_py_dict(py)?.into_any(),
+        Inversion::Exponential(Exponential::Scale(scale)) => {
+            [("exponential", scale)].into_py_dict(py)?.into_any()
+        }
+        _ => "spherical".into_pyobject(py)?.into_any(),
+    })
 }
 
 /// Warns if the pose of a camera was probably given the wrong way round.

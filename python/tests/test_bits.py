@@ -40,10 +40,6 @@ OPTIONS = [
     {"inversion": {"power": 1.7}},
     {"inversion": {"exponential": "auto"}},
     {"looks": 3, "scores": True},
-    {"denoise": 8},
-    {"vote": 6},
-    {"draft": True},
-    {"sample": 400},
 ]
 
 

@@ -78,8 +78,6 @@ def test_every_question():
     assert smooth.dtype == np.float32 and smooth.min() == 0.25
     looks = cloud.visible_from(VIEWPOINT, looks=3, scores=True)
     assert looks.scores.shape == (1500,) and len(looks.inversion["looks"]) == 3
-    draft = cloud.visible_from(VIEWPOINT, draft=True)
-    assert not draft.exact and set(one.indices.tolist()) <= set(draft.indices.tolist())
     exponential = cloud.visible_from(VIEWPOINT, inversion={"exponential": "auto"})
     again = cloud.visible_from(VIEWPOINT, inversion=exponential.inversion)
     assert np.array_equal(again.indices, exponential.indices)
@@ -174,7 +172,7 @@ def test_boxes_are_proved_hidden():
         ("option", lambda: PointCloud([[0, 0, 1]]).visible_from([0, 0, 5], scores=True)),
         ("option", lambda: PointCloud([[0, 0, 1]]).visible_from([0, 0, 5], inversion={"power": 1})),
         ("option", lambda: PointCloud([[0, 0, 1]]).visible_from([0, 0, 5], inversion="round")),
-        ("option", lambda: PointCloud([[0, 0, 1]]).visible_from([0, 0, 5], denoise=1.5)),
+        ("option", lambda: PointCloud([[0, 0, 1]]).visible_from([0, 0, 5], looks=1.5)),
         ("option", lambda: PointCloud([[0, 0, 1]]).remove([1])),
         ("option", lambda: PointCloud([[0, 0, 1]]).remove([-1])),
         ("option", lambda: PointCloud([[0, 0, 1]]).illuminate([[0, 0, 5]], triangles=[[0, 0, 1]])),
@@ -311,8 +309,8 @@ def test_how_many_viewpoints_see_each_point_and_which_to_choose():
         ("viewpoint", lambda cloud: cloud.visible_from_camera(camera(zoom=2))),
         ("non-finite", lambda cloud: cloud.sees(VIEWPOINT, [[0, 0, np.nan]])),
         ("positions-length", lambda cloud: cloud.sees(VIEWPOINT, [[0, 0]])),
-        ("option", lambda cloud: cloud.sees(VIEWPOINT, [[0, 0, 0]], draft=True)),
-        ("option", lambda cloud: cloud.coverage([VIEWPOINT], draft=True)),
+        ("option", lambda cloud: cloud.sees(VIEWPOINT, [[0, 0, 0]], looks=3, scores=True)),
+        ("option", lambda cloud: cloud.coverage([VIEWPOINT], looks=3, scores=True)),
         ("viewpoint", lambda cloud: cloud.coverage([[0, 0]])),
         ("option", lambda cloud: cloud.place_viewpoints([VIEWPOINT], count=0)),
         ("option", lambda cloud: cloud.place_viewpoints([VIEWPOINT], share=1.5)),
@@ -401,7 +399,7 @@ def test_panorama():
     assert seen.solid_angle == pytest.approx(2 * np.pi, rel=0.01)
     assert seen.sky_view_factor < 0.001
     assert dome.panorama([0, 0, 0], width=64, height=32, up=[0, 0, -1], looks=3).sky_view_factor > 0.999
-    for wrong in ({"width": 0}, {"height": 16_385}, {"draft": True}):
+    for wrong in ({"width": 0}, {"height": 16_385}, {"draft": True}, {"sample": 9}, {"denoise": 9}, {"vote": 9}, {"radius": "search"}):
         with pytest.raises(HprError) as refused:
             dome.panorama([0, 0, 0], **{"width": 8, "height": 8, **wrong})
         assert refused.value.code == "option"

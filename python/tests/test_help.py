@@ -8,7 +8,7 @@ import pytest
 import hidden_point_removal as hpr
 from hidden_point_removal import Horizon, HprError, PointCloud
 
-OPTIONS = "radius exponent inversion looks scores thickness denoise vote draft sample within".split()
+OPTIONS = "radius exponent inversion looks scores thickness within".split()
 ASKS = [name for name in dir(PointCloud) if not name.startswith("_")]
 TAKE_NO_OPTIONS = {"append", "auto_radius", "noise", "remove", "skipped", "spacing"}
 
