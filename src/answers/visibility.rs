@@ -348,7 +348,7 @@ impl PointCloud {
         let mut answer = Visibility::new(indices, self.len(), chosen, inversion);
         answer.exact = options.is_exact();
         if let Inversion::Looks(count) = inversion {
-            let scales = even_scales(count, &self.statistics()?);
+            let scales = even_scales(count, &self.statistics()?, &*self.known_noise()?);
             answer.looks = copied(&scales[..count])?;
         }
         Ok(answer)

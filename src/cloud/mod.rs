@@ -14,6 +14,7 @@ pub(crate) mod points;
 pub(crate) mod quadric;
 pub(crate) mod selection;
 pub(crate) mod sequence;
+pub(crate) mod sheets;
 pub(crate) mod spatial;
 pub(crate) mod statistics;
 pub(crate) mod surface;

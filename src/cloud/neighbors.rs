@@ -9,9 +9,11 @@ mod tests;
 
 use alloc::vec::Vec;
 use core::ops::Range;
+use glam::DVec3;
 
 use crate::base::allocation::{OutOfMemory, with_capacity};
 use crate::base::beat;
+use crate::base::real::square_root;
 use crate::cloud::points::Points;
 use crate::cloud::spatial::Bounds;
 
@@ -161,6 +163,47 @@ impl<'a> Neighbors<'a> {
         }
     }
 
+    /// How far before or behind `place`, along `normal`, the nearest point is that is at least `near` and
+    /// at most `far` away along it, and at most `beside` from it. Infinite where there is none.
+    pub(crate) fn along(
+        &self,
+        place: [f64; 3],
+        normal: DVec3,
+        beside: f64,
+        near: f64,
+        far: f64,
+    ) -> f64 {
+        beat::step();
+        let mut line = Line {
+            place: DVec3::from_array(place),
+            normal,
+            beside,
+            near,
+            far,
+            nearest: f64::INFINITY,
+        };
+        let (top, nodes) = self.top();
+        self.descend_along(top, nodes, &mut line);
+        line.nearest
+    }
+
+    fn descend_along(&self, level: usize, nodes: Range<usize>, line: &mut Line) {
+        let first = nodes.start;
+        for (after, bounds) in self.levels[level][nodes].iter().enumerate() {
+            let node = first + after;
+            if !line.may_meet(bounds) {
+                continue;
+            }
+            if level > 0 {
+                self.descend_along(level - 1, self.children(level, node), line);
+                continue;
+            }
+            for index in node * LEAF..self.points.len().min((node + 1) * LEAF) {
+                line.meet(self.points.get(index));
+            }
+        }
+    }
+
     fn scan_leaf(&self, leaf: usize, query: usize, best: &mut Best) {
         let center = self.points.get(query);
         let end = self.points.len().min((leaf + 1) * LEAF);
@@ -172,6 +215,43 @@ impl<'a> Neighbors<'a> {
                 best.offer(Neighbor { squared, index }, self.points);
                 worst = best.worst();
             }
+        }
+    }
+}
+
+/// What is met along a line through a place.
+struct Line {
+    place: DVec3,
+    normal: DVec3,
+    beside: f64,
+    near: f64,
+    far: f64,
+    nearest: f64,
+}
+
+impl Line {
+    /// How far a place is along the line, and beside it.
+    fn measure(&self, place: DVec3) -> [f64; 2] {
+        let v = place - self.place;
+        let along = v.dot(self.normal);
+        let beside = v - self.normal * along;
+        [along.abs(), square_root(beside.length_squared())]
+    }
+
+    /// Whether a box may hold a nearer point than the nearest one.
+    fn may_meet(&self, bounds: &Bounds) -> bool {
+        let [min, max] = [bounds.min, bounds.max].map(DVec3::from_array);
+        let half = max * 0.5 - min * 0.5;
+        let radius = square_root(half.length_squared());
+        let [along, beside] = self.measure(min + half);
+        // Not `<=` alone: what overflows may be met.
+        !(beside - radius > self.beside || along - radius > self.far.min(self.nearest))
+    }
+
+    fn meet(&mut self, point: [f64; 3]) {
+        let [along, beside] = self.measure(DVec3::from_array(point));
+        if beside <= self.beside && along >= self.near && along <= self.far.min(self.nearest) {
+            self.nearest = along;
         }
     }
 }

@@ -14,6 +14,7 @@ use crate::cloud::neighbors::{Nearest, Neighbors};
 use crate::cloud::plane::off_plane;
 use crate::cloud::points::Points;
 use crate::cloud::quadric::off_quadric;
+use crate::cloud::sheets::{are_sheets, next_sheet};
 use crate::cloud::statistics::{mean_distance, sampled_place};
 use crate::cloud::surface;
 
@@ -39,9 +40,6 @@ const CLEAN: f64 = 0.04;
 /// 1.29, noisy objects at most 1.57, scans that overlap 2.0 and more.
 const EVEN: f64 = 1.8;
 const VERY_LOW: usize = 5;
-/// Even noise with a median kurtosis below this is two sheets, unless it is [alike](MEASURED). Normal
-/// noise has 2.63 to 2.76.
-const TWO_SHEETS: f64 = 2.35;
 /// The measured noise comes nowhere near this, however large the noise is. Above 0.25 it is too small,
 /// as measured on spheres with noise of 0.1 to 2 spacings.
 const MOST: f64 = 0.56;
@@ -74,6 +72,8 @@ pub(crate) struct Sample {
     pub normal: DVec3,
     /// The mean distance to its 6 nearest points.
     pub spacing: f64,
+    /// What does not grow of the distances off the quadrics, in spacings.
+    pub noise: f64,
 }
 
 /// What a sample tells of a cloud's noise.
@@ -92,12 +92,17 @@ pub(crate) struct Noise {
     pub is_alike: bool,
     /// What takes the place of the gap between samples where a surface was measured by a scanner.
     pub gap: Option<f64>,
+    /// The median spacing of the samples.
+    pub usual: f64,
+    /// The distance from a clean surface to the next one behind or before it; else infinite.
+    pub next_sheet: f64,
 }
 
 impl Noise {
     /// Measures distinct points along the Hilbert curve.
     pub(crate) fn of(points: &Points) -> Result<Self, OutOfMemory> {
-        let measured = Measured::of(points)?;
+        let neighbors = &Neighbors::new(points)?;
+        let measured = Measured::of(points, neighbors)?;
         let mut spacings = with_capacity(measured.samples.len())?;
         spacings.extend(measured.samples.iter().map(|sample| sample.spacing));
         let longest = surface::longest(&spacings)?;
@@ -107,12 +112,7 @@ impl Noise {
         let [small, large] = &measured.ratios;
         let common = constant(low(small, LOW)?, low(large, LOW)?);
         let mut constants = with_capacity(small.len())?;
-        constants.extend(
-            small
-                .iter()
-                .zip(large)
-                .map(|(&small, &large)| constant(small, large)),
-        );
+        constants.extend(measured.samples.iter().map(|sample| sample.noise));
         let mut noise = Self {
             spacing,
             ratio: (TO_DEVIATION * common).max(WHERE_LAYERED * low(&constants, 50)?),
@@ -120,6 +120,8 @@ impl Noise {
             is_even: false,
             is_alike: low(&measured.planes[0], 50)? >= MEASURED,
             gap: None,
+            usual: median,
+            next_sheet: f64::INFINITY,
             samples: Vec::new(),
         };
         let is_measured = noise.is_alike && low(&measured.planes[1], 50)? >= LEAST_OFF;
@@ -134,15 +136,16 @@ impl Noise {
             && (is_large || noise.is_alike)
             && noise.ratio * spacing < f64::INFINITY
         {
-            noise.is_even = measured.is_even(points)?;
+            let is_even = measured.is_even(points)?;
             // The two sides of a thin sheet are no noise.
-            let is_sheets =
-                noise.is_even && !noise.is_alike && low(&measured.kurtoses, 50)? < TWO_SHEETS;
-            if !is_sheets && (is_large || noise.is_even) {
+            let is_noise =
+                (is_large || is_even) && !are_sheets(points, neighbors, &measured.samples, NOISY)?;
+            if is_noise {
+                noise.is_even = is_even;
                 noise.excess = (noise.ratio - CLEAN) * spacing;
             }
-            if !is_sheets && is_large {
-                looser = if noise.is_even {
+            if is_noise && is_large {
+                looser = if is_even {
                     1.0 + BY_NOISE * noise.deviation() / spacing
                 } else {
                     OVERLAPPING
@@ -150,6 +153,9 @@ impl Noise {
             }
         }
         noise.gap = Some(median / looser).filter(|_| looser > 1.0);
+        if noise.excess == 0.0 && noise.gap.is_none() {
+            noise.next_sheet = next_sheet(neighbors, &measured.samples, median)?;
+        }
         noise.samples = measured.samples;
         Ok(noise)
     }
@@ -189,8 +195,6 @@ struct Measured {
     ratios: [Vec<f64>; 2],
     /// In the cloud's units, for the small surroundings.
     lengths: Vec<f64>,
-    /// For the large surroundings.
-    kurtoses: Vec<f64>,
     /// The distances off the planes of [`PLANES`]: the small ÷ the large one, and the small one in
     /// spacings.
     planes: [Vec<f64>; 2],
@@ -198,17 +202,15 @@ struct Measured {
 
 impl Measured {
     #[inline(never)]
-    fn of(points: &Points) -> Result<Self, OutOfMemory> {
+    fn of(points: &Points, neighbors: &Neighbors) -> Result<Self, OutOfMemory> {
         let n = points.len();
         let count = if n < FEWEST { 0 } else { n.min(SAMPLES) };
         let mut samples: Vec<Sample> = with_capacity(count)?;
         let mut ratios = [with_capacity(count)?, with_capacity(count)?];
         let mut lengths: Vec<f64> = with_capacity(count)?;
-        let mut kurtoses: Vec<f64> = with_capacity(count)?;
         let mut planes = [with_capacity(count)?, with_capacity(count)?];
         let [_, most] = NEAR;
         let mut places: Vec<DVec3> = with_capacity(most + 1)?;
-        let neighbors = Neighbors::new(points)?;
         let mut nearest = Nearest::with_capacity(most)?;
         for sample in 0..count {
             let query = sampled_place(sample, count, n);
@@ -231,17 +233,19 @@ impl Measured {
             let small = off_quadric(&places[..=NEAR[0]]);
             let large = off_quadric(&places);
             let size = spacing * unit;
-            ratios[0].push(small.deviation / size);
-            ratios[1].push(large.deviation / size);
             lengths.push(small.deviation / unit);
-            kurtoses.push(large.kurtosis);
+            let normal = small.normal;
             let [near, far] = PLANES.map(|count| off_plane(&places[..=count]));
             planes[0].push(near / far);
             planes[1].push(near / size);
+            let [small_off, large_off] = [small, large].map(|off| off.deviation / size);
+            ratios[0].push(small_off);
+            ratios[1].push(large_off);
             samples.push(Sample {
+                noise: constant(small_off, large_off),
                 point: query as u32,
                 place,
-                normal: small.normal,
+                normal,
                 spacing,
             });
         }
@@ -249,7 +253,6 @@ impl Measured {
             samples,
             ratios,
             lengths,
-            kurtoses,
             planes,
         })
     }
@@ -263,7 +266,10 @@ impl Measured {
         if step > 1 {
             let mut places = with_capacity(points.len() / step + 1)?;
             places.extend((0..points.len() as u32).step_by(step));
-            let thinned = Self::of(&points.gathered(&places)?)?.unevenness()?;
+            let thinned = {
+                let points = points.gathered(&places)?;
+                Self::of(&points, &Neighbors::new(&points)?)?.unevenness()?
+            };
             unevenness = unevenness.max(thinned);
         }
         Ok(unevenness < EVEN)

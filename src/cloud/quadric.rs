@@ -17,9 +17,6 @@ pub(crate) struct Residuals {
     /// The root of the mean squared distance along the normal. The sum of squares is divided by the
     /// number of places above 6.
     pub deviation: f64,
-    /// The mean fourth power ÷ the square of the mean square: 2.7 for normal noise, and less where the
-    /// places are in two sheets. NaN where all are on the quadric.
-    pub kurtosis: f64,
 }
 
 /// Measures more than 6 places.
@@ -60,20 +57,17 @@ pub(crate) fn off_quadric(places: &[DVec3]) -> Residuals {
         row[i] += RIDGE;
     }
     let factors = solved(rows);
-    let [mut squares, mut fourths] = [0.0; 2];
+    let mut squares = 0.0;
     for &v in places {
         let mut off = v.dot(normal);
         for (factor, term) in factors.iter().zip(terms(v)) {
             off -= factor * term;
         }
-        let square = off * off;
-        squares += square;
-        fourths += square * square;
+        squares += off * off;
     }
     Residuals {
         normal,
         deviation: square_root(squares / (count - TERMS as f64)),
-        kurtosis: fourths * count / (squares * squares),
     }
 }
 
@@ -119,8 +113,6 @@ mod tests {
             .collect();
         let rough_off = off_quadric(&rough);
         assert!((rough_off.deviation - 0.1).abs() < 0.02);
-        // Two sheets.
-        assert!(rough_off.kurtosis < 1.5, "{}", rough_off.kurtosis);
     }
 
     #[test]

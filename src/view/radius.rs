@@ -1,7 +1,7 @@
 //! A radius R of the flipping sphere: checked, or by the closed form (paper §4).
 
 use crate::base::error::Error;
-use crate::base::real::square_root;
+use crate::base::real::{larger, square_root};
 use crate::cloud::neighbors::distance_squared;
 use crate::cloud::noise::Noise;
 use crate::cloud::points::Given;
@@ -126,10 +126,13 @@ pub(crate) fn automatic(
 }
 
 /// The gap of a clean surface that would have the same radius. Points of a measured surface lie
-/// behind each other, and only a larger sphere shows them.
+/// behind each other, and only a larger sphere shows them. What lies d behind a clean surface is hidden only by
+/// R < d·r²/s² (paper §4).
 pub(crate) fn effective_gap(statistics: &Statistics, noise: &Noise) -> f64 {
     let measured = noise.gap.map(|gap| gap * statistics.widening);
-    statistics.gap.min(measured.unwrap_or(f64::INFINITY))
+    let gap = statistics.gap.min(measured.unwrap_or(f64::INFINITY));
+    let bound = bend(statistics.count, noise.next_sheet) * noise.usual * noise.usual;
+    larger(gap, bound)
 }
 
 /// R = 0.4·n^¼·r²/g, with n the number of distinct points, r the root-mean-square distance of the

@@ -11,6 +11,7 @@ use crate::answers::looks::tuning::Tuning;
 use crate::base::allocation::OutOfMemory;
 use crate::base::error::Error;
 use crate::base::real::power_of_two_below;
+use crate::cloud::noise::Noise;
 use crate::cloud::point_cloud::{PointCloud, Smooth, Survey};
 use crate::cloud::points::Points;
 use crate::cloud::statistics::Statistics;
@@ -35,8 +36,8 @@ fn place(count: usize, number: usize) -> usize {
 
 /// The c of each of `count` looks at a cloud with these statistics, without noise and range. The
 /// remaining numbers are 0.
-pub(crate) fn even_scales(count: usize, statistics: &Statistics) -> [f64; 3] {
-    scales_of(count, &Tuning::plain(statistics))
+pub(crate) fn even_scales(count: usize, statistics: &Statistics, noise: &Noise) -> [f64; 3] {
+    scales_of(count, &Tuning::plain(statistics, noise))
 }
 
 fn scales_of(count: usize, tuning: &Tuning) -> [f64; 3] {

@@ -13,7 +13,7 @@ use glam::DVec3;
 use crate::answers::looks::odds::Odds;
 use crate::answers::looks::rays::{Projection, Ray, Rays};
 use crate::base::allocation::{OutOfMemory, with_capacity};
-use crate::base::real::square_root;
+use crate::base::real::{larger, square_root};
 use crate::base::sort::percentile;
 use crate::cloud::noise::Noise;
 use crate::cloud::point_cloud::{PointCloud, Survey};
@@ -85,7 +85,7 @@ impl Tuning {
     ) -> Result<Self, OutOfMemory> {
         let statistics = &cloud.statistics()?;
         let Some(survey) = survey else {
-            return Ok(Self::plain(statistics));
+            return Ok(Self::plain(statistics, &*cloud.known_noise()?));
         };
         let measured: &Noise = &survey.noise;
         let (noise, thickness, excess) = match (&survey.smooth, given) {
@@ -129,6 +129,7 @@ impl Tuning {
         }
         let wide = if is_thick { 0.0 } else { 1.0 - ranged };
         let mut gap = statistics.spacing * libm::pow(statistics.widening, wide);
+        gap = larger(gap, gap_of_sheets(noise));
         if growth > 0.0
             && let Some(range) = range
         {
@@ -166,9 +167,10 @@ impl Tuning {
         }
     }
 
-    pub(super) fn plain(statistics: &Statistics) -> Self {
+    pub(super) fn plain(statistics: &Statistics, noise: &Noise) -> Self {
         // Where samples leave much empty, gaps are wider than the spacing.
         let gap = statistics.spacing * statistics.widening;
+        let gap = larger(gap, gap_of_sheets(noise));
         Self {
             scales: scales(gap, 1.0),
             growth: 0.0,
@@ -181,6 +183,13 @@ impl Tuning {
             odds: Odds::PLAIN,
         }
     }
+}
+
+/// The gap at which the tight look hides what lies as far behind a clean surface as the next sheet:
+/// c > s²/2d, as R < d·r²/s².
+fn gap_of_sheets(noise: &Noise) -> f64 {
+    let [tight, ..] = SHARES;
+    noise.usual * noise.usual / (2.0 * tight * noise.next_sheet)
 }
 
 fn scales(gap: f64, looser: f64) -> [f64; 3] {

@@ -1,0 +1,147 @@
+//! Sheets that lie near each other: the two sides of a board, shelves, walls. A quadric takes them for
+//! noise. Two planes tell them from it, since sheets without noise lie on them.
+
+use alloc::vec::Vec;
+use glam::{DMat3, DVec3};
+
+use crate::base::allocation::{OutOfMemory, filled, with_capacity};
+use crate::base::real::square_root;
+use crate::base::sort::percentile;
+use crate::cloud::neighbors::{Nearest, Neighbors};
+use crate::cloud::noise::Sample;
+use crate::cloud::plane::{least_axis, outer_product};
+use crate::cloud::points::Points;
+use crate::cloud::quadric::off_quadric;
+
+/// Points around a place that are looked at.
+const AROUND: usize = 32;
+/// How many places are measured.
+const PLACES: usize = 512;
+/// A cloud is sheets if this percentile of its rough places lies on two planes: if points are at most this
+/// share as far off them as off one quadric. Clean sheets have 0, scanned surfaces and all kinds of noise 0.34 and
+/// more, scans without noise that lie beside each other 0.13.
+const TWO: usize = 10;
+const SHEETS: f64 = 0.1;
+/// The percentile of the distances to the next sheet.
+const LOW: usize = 25;
+/// Points on each sheet, at least.
+const FEWEST: usize = 3;
+/// How often points are dealt anew to two planes.
+const ROUNDS: usize = 2;
+/// A point is on the next sheet if it lies from the first to the second number of spacings before or behind a place,
+/// and at most one local spacing beside its normal.
+const NEXT: [f64; 2] = [0.7, 30.0];
+
+/// Every so many-th sample, so that at most [`PLACES`] are left.
+fn some(samples: &[Sample]) -> impl Iterator<Item = &Sample> {
+    samples
+        .iter()
+        .step_by(samples.len().div_ceil(PLACES).max(1))
+}
+
+/// Whether points lie on two sheets, rather than around one surface, where there seems to be more noise than `least`,
+/// in spacings.
+#[inline(never)]
+pub(crate) fn are_sheets(
+    points: &Points,
+    neighbors: &Neighbors,
+    samples: &[Sample],
+    least: f64,
+) -> Result<bool, OutOfMemory> {
+    let mut nearest = Nearest::with_capacity(AROUND)?;
+    let mut places: Vec<DVec3> = with_capacity(AROUND + 1)?;
+    let mut heights: Vec<(f64, usize)> = filled(AROUND + 1, (0.0, 0))?;
+    let mut shares = with_capacity(PLACES)?;
+    for sample in some(samples).filter(|sample| sample.noise > least) {
+        neighbors.find(sample.point as usize, &mut nearest);
+        let origin = DVec3::from_array(sample.place);
+        places.clear();
+        places.push(DVec3::ZERO);
+        places.extend(nearest.found().iter().map(|other| {
+            let other = DVec3::from_array(points.get(other.index as usize));
+            (other - origin) / sample.spacing
+        }));
+        let one = off_quadric(&places);
+        let share = off_two_planes(&places, one.normal, &mut heights) / one.deviation;
+        // NaN where all points are on the quadric.
+        if share >= 0.0 {
+            shares.push(share);
+        }
+    }
+    Ok(percentile(&shares, TWO)?.is_some_and(|share| share <= SHEETS))
+}
+
+/// How far places lie off two parallel planes, which are first sought across `normal`: the root of the
+/// mean square. The sum of squares is divided by the number of places above 4.
+fn off_two_planes(places: &[DVec3], normal: DVec3, heights: &mut [(f64, usize)]) -> f64 {
+    let mut normal = normal;
+    let mut squares = 0.0;
+    for _ in 0..ROUNDS {
+        for (place, height) in heights.iter_mut().enumerate() {
+            *height = (places[place].dot(normal), place);
+        }
+        heights.sort_unstable_by(|one, other| one.0.total_cmp(&other.0));
+        // The planes are on both sides of the widest gap.
+        let mut cut = FEWEST;
+        for at in FEWEST..=heights.len() - FEWEST {
+            let gap = |at: usize| heights[at].0 - heights[at - 1].0;
+            if gap(at) > gap(cut) {
+                cut = at;
+            }
+        }
+        let (low, high) = heights.split_at(cut);
+        let mut spread = DMat3::ZERO;
+        for sheet in [low, high] {
+            let sum = sheet
+                .iter()
+                .fold(DVec3::ZERO, |sum, (_, place)| sum + places[*place]);
+            let mean = sum / sheet.len() as f64;
+            for (_, place) in sheet {
+                spread += outer_product(places[*place] - mean);
+            }
+        }
+        normal = least_axis(spread);
+        squares = normal.dot(spread * normal).max(0.0);
+    }
+    square_root(squares / (places.len() as f64 - 4.0))
+}
+
+/// The distance from a sheet to the next one, along its normal: the low percentile over the samples. It
+/// is infinite where most places have no other sheet near. `usual` is the usual spacing.
+#[inline(never)]
+pub(crate) fn next_sheet(
+    neighbors: &Neighbors,
+    samples: &[Sample],
+    usual: f64,
+) -> Result<f64, OutOfMemory> {
+    let [near, far] = NEXT;
+    let mut distances = with_capacity(PLACES)?;
+    for Sample {
+        place,
+        normal,
+        spacing,
+        ..
+    } in some(samples)
+    {
+        let next = neighbors.along(*place, *normal, *spacing, near * spacing, far * usual);
+        distances.push(next);
+    }
+    Ok(percentile(&distances, LOW)?.unwrap_or(f64::INFINITY))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sheets_lie_on_two_planes_and_noise_does_not() {
+        let at = |k: usize, z: f64| DVec3::new((k % 6) as f64, (k / 6) as f64 + 0.1 * z, z);
+        let mut heights = filled(33, (0.0, 0)).unwrap();
+        let mut off = |height: &dyn Fn(usize) -> f64| {
+            let places: Vec<DVec3> = (0..33).map(|k| at(k, height(k))).collect();
+            off_two_planes(&places, DVec3::Z, &mut heights)
+        };
+        assert!(off(&|k| (k % 2) as f64) < 1e-9);
+        assert!(off(&|k| ((k * 7) % 33) as f64 / 33.0) > 0.1);
+    }
+}
