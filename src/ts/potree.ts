@@ -3,5 +3,4 @@ export { PotreeFilter, type PotreeFilterOptions } from "./potree/filter.js";
 export type { PotreeViewer } from "./potree/viewer.js";
 export type { HiddenPointNodesFilterEvents } from "./nodes/gathered-filter.js";
 export type { Inversion, RadiusRule, VisibilityOptions } from "./query/view-options.js";
-export type { AnswerKind } from "./follow/refinement.js";
-export type { FollowOptions } from "./query/follow-options.js";
+export type { AnswerKind, FollowOptions } from "./follow/options.js";

@@ -4,5 +4,4 @@ export { VisiblePoints, type VisiblePointsProps } from "./react-three-fiber/visi
 export type { HiddenPointFilter } from "./three/filter.js";
 export type { HiddenPointFilterOptions } from "./three/options.js";
 export type { Inversion, RadiusRule, VisibilityOptions } from "./query/view-options.js";
-export type { AnswerKind } from "./follow/refinement.js";
-export type { FollowOptions } from "./query/follow-options.js";
+export type { AnswerKind, FollowOptions } from "./follow/options.js";

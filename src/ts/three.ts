@@ -2,5 +2,4 @@ export { HprError, type HprErrorCode } from "./base/errors.js";
 export { HiddenPointFilter, type HiddenPointFilterEvents } from "./three/filter.js";
 export type { HiddenPointFilterOptions } from "./three/options.js";
 export type { Inversion, RadiusRule, VisibilityOptions } from "./query/view-options.js";
-export type { AnswerKind } from "./follow/refinement.js";
-export type { FollowOptions } from "./query/follow-options.js";
+export type { AnswerKind, FollowOptions } from "./follow/options.js";

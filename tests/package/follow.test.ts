@@ -3,10 +3,9 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 
 import { HprError } from "../../src/ts/base/errors.js";
-import { type Followed, Follower, type Round } from "../../src/ts/follow/follower.js";
-import { Readiness } from "../../src/ts/follow/readiness.js";
-import { Refinement } from "../../src/ts/follow/refinement.js";
-import { Recovery, type RecoveryTimes } from "../../src/ts/follow/recovery.js";
+import { type Followed, Follower, Recovery, type RecoveryTimes, type Round } from "../../src/ts/follow/follower.js";
+import { Readiness } from "../../src/ts/follow/events.js";
+import { Refinement } from "../../src/ts/follow/view.js";
 
 const LOST = new HprError("internal", "the worker died");
 

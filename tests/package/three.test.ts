@@ -300,12 +300,20 @@ describe.each(VERSIONS)("with %s", (name, load) => {
       }
     });
 
-    it("treats points that are listed twice as one", () => {
+    it("takes each point once, as of a mesh whose faces share corners", () => {
       const { points, camera, geometry } = sceneOf(adapter, sphere);
-      geometry.setIndex([...some, ...some]);
-      filterFor(points, { worker: false }).update(camera);
-      const visible = drawn(geometry);
-      expect(visible.slice(0, visible.length / 2)).toEqual(visible.slice(visible.length / 2));
+      const faces = [...some, ...some.toReversed(), ...some];
+      geometry.setIndex(faces);
+      const filter = filterFor(points, { worker: false });
+      expect(filter.visibleCount).toBe(some.length);
+      filter.update(camera);
+      const once = sceneOf(adapter, sphere);
+      once.geometry.setIndex([...some]);
+      filterFor(once.points, { worker: false }).update(camera);
+      expect(drawn(geometry)).toEqual(drawn(once.geometry));
+      expect([...filter.visible]).toEqual(drawn(geometry));
+      filter.dispose();
+      expect(drawn(geometry)).toEqual(faces);
     });
 
     it("may draw nothing", async () => {

@@ -1,12 +1,10 @@
 import type { Visibility } from "../cloud/visibility.js";
 import { VisibilityMap } from "../cloud/visibility-map.js";
-import { Follower, type Round } from "../follow/follower.js";
-import type { RecoveryTimes } from "../follow/recovery.js";
-import type { AnswerKind } from "../follow/refinement.js";
-import { type FollowSettings, stagesFor } from "../query/follow-options.js";
+import { Follower, type RecoveryTimes, type Round } from "../follow/follower.js";
+import { type AnswerKind, type FollowSettings, stagesFor } from "../follow/options.js";
+import { FollowedView, type Seen } from "../follow/view.js";
 import type { Place } from "../query/place.js";
-import { WorkerPointCloud } from "../worker/client.js";
-import { FollowedView, see, type Seen } from "../worker/followed-view.js";
+import { type Cloud, prepareCloud, see } from "../worker/followed-cloud.js";
 
 interface Listener {
   answer: (answer: Visibility, kind: AnswerKind, milliseconds: number) => void;
@@ -26,7 +24,7 @@ export class LayerCloud {
   #settings: FollowSettings | undefined;
   #drawsMaps = false;
   #follower: Follower | undefined;
-  #cloud: WorkerPointCloud | undefined;
+  #cloud: Cloud | undefined;
   /** Reads the positions. Undefined after it was called. */
   #unread: ReadPositions | undefined;
 
@@ -81,12 +79,12 @@ export class LayerCloud {
   #begin(): void {
     if (this.#settings !== undefined) {
       const isMapped = this.#drawsMaps && this.#view.place?.isDirection !== true;
-      this.#view.refinement.moved(stagesFor(this.#settings, this.length, isMapped));
+      this.#view.moved(stagesFor(this.#settings, this.length, isMapped));
     }
   }
 
   dispose(): void {
-    this.#view.refinement.stop();
+    this.#view.stop();
     this.#follower?.stop();
     this.#follower = undefined;
     this.#dropCloud();
@@ -95,16 +93,15 @@ export class LayerCloud {
   #next(): Round | undefined {
     if (this.#unread !== undefined) return this.#preparing(this.#unread);
     const cloud = this.#cloud;
-    const isDue = this.#view.place !== undefined && this.#view.refinement.due !== undefined;
+    const isDue = this.#view.place !== undefined && this.#view.due !== undefined;
     return cloud !== undefined && isDue ? this.#viewing(cloud) : undefined;
   }
 
-  #preparing(read: ReadPositions): Round<WorkerPointCloud> {
+  #preparing(read: ReadPositions): Round<Cloud> {
     return {
       ask: () => {
         this.#unread = undefined;
-        // If the worker is lost, the positions are read again.
-        return WorkerPointCloud.create(read().slice(), { shared: true, transfer: true });
+        return prepareCloud(read(), false, { inWorker: true, nonFinite: "error" });
       },
       use: (cloud) => {
         this.#cloud = cloud;
@@ -115,8 +112,8 @@ export class LayerCloud {
     };
   }
 
-  #viewing(cloud: WorkerPointCloud): Round<Seen> {
-    return this.#view.round(
+  #viewing(cloud: Cloud): Round<Seen> {
+    return this.#view.see(
       this.#settings!.stale,
       (place, stage) => see(cloud, place, stage),
       (answer, kind, milliseconds) => {

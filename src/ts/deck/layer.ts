@@ -3,9 +3,14 @@ import { DataFilterExtension } from "@deck.gl/extensions";
 import { PointCloudLayer, type PointCloudLayerProps } from "@deck.gl/layers";
 
 import { asError, HprError } from "../base/errors.js";
-import type { AnswerKind } from "../follow/refinement.js";
-import { FOLLOW_OPTIONS, type FollowOptions, type FollowSettings, followSettings } from "../query/follow-options.js";
-import { givenOptions, pick } from "../query/options.js";
+import {
+  type AnswerKind,
+  FOLLOW_OPTIONS,
+  type FollowOptions,
+  type FollowSettings,
+  followSettings,
+} from "../follow/options.js";
+import { givenOptions } from "../query/options.js";
 import { VIEW_OPTIONS, type VisibilityOptions } from "../query/view-options.js";
 import type { Visibility } from "../cloud/visibility.js";
 import type { VisibilityMap } from "../cloud/visibility-map.js";
@@ -235,8 +240,7 @@ export class VisiblePointCloudLayer<DataT = unknown> extends CompositeLayer<Visi
     if (read?.given !== visibility) {
       const text = JSON.stringify(visibility);
       const given = givenOptions(visibility, VIEW_OPTIONS, FOLLOW_OPTIONS);
-      const settings =
-        read?.text === text ? read.settings : followSettings(given, pick(given, VIEW_OPTIONS), { hasShaders: true });
+      const settings = read?.text === text ? read.settings : followSettings(given, { hasShaders: true });
       if (settings.stages.some((stage) => stage.options.scores === true)) {
         throw new HprError("option", "scores have no effect in this layer; leave them out");
       }

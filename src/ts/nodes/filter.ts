@@ -1,12 +1,23 @@
 import type { Object3D, Points } from "three";
 
 import { describe, HprError } from "../base/errors.js";
-import { requireUniformScale } from "../three/eye.js";
+import { requireUniformScale } from "../three/cameras.js";
 import { patchMaterial, type PatchMaterial } from "../three/map-material.js";
+import { type HiddenPointFilterOptions, oneOf } from "../three/options.js";
 import { GatheredFilter } from "./gathered-filter.js";
 import type { CloudNode } from "./node.js";
 import { NodeSet } from "./node-set.js";
-import { type HiddenPointNodesFilterOptions, readNodesOptions } from "./options.js";
+
+/** The options of a `HiddenPointFilter` for the cloud of all nodes, and a function that chooses the nodes. */
+export interface HiddenPointNodesFilterOptions extends Omit<HiddenPointFilterOptions, "cloud"> {
+  /** Returns the present nodes. Default: every visible `Points` below the root. */
+  nodes?: (() => Iterable<Points>) | undefined;
+  /**
+   * How a node is drawn until its first answer: all of its points (`"draw"`, the default), or none
+   * (`"hide"`, by its layers). Refused nodes are drawn.
+   */
+  pending?: "draw" | "hide" | undefined;
+}
 
 /**
  * Takes many `THREE.Points` as one cloud, and draws only the points that the camera sees. This is
@@ -42,11 +53,16 @@ export class HiddenPointNodesFilter extends GatheredFilter<CloudNode> {
     if (typeof (root as unknown) !== "object" || (root as unknown) === null || !("isObject3D" in root)) {
       throw new HprError("option", `root must be a THREE.Object3D, got ${describe(root)}`);
     }
-    const settings = readNodesOptions(options);
+    super(root, options, ["nodes", "pending"]);
+    const given = this.settings.given as HiddenPointNodesFilterOptions & Record<string, unknown>;
+    const { nodes } = given;
+    if (nodes !== undefined && typeof nodes !== "function") {
+      throw new HprError("option", `nodes must be a function that returns the nodes, got ${describe(nodes)}`);
+    }
+    const hidesPending = oneOf(given, "pending", ["draw", "hide"]) === "hide";
     requireUniformScale(root);
-    super(root, settings);
-    settings.patch = this.patch;
-    this.drawing = new NodeSet(root, settings, this.refuseNode);
+    this.settings.patch = this.patch;
+    this.drawing = new NodeSet(root, Object.assign(this.settings, { nodes, hidesPending }), this.refuseNode);
   }
 
   /** How materials are made to leave out hidden points. @internal */

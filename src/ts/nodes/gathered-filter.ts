@@ -1,12 +1,9 @@
-import type { Camera, Points } from "three";
+import type { Points } from "three";
 
 import type { Round } from "../follow/follower.js";
-import type { AnswerKind } from "../follow/refinement.js";
-import type { Place } from "../query/place.js";
-import { CameraFilter, type Drawing } from "../three/camera-filter.js";
-import type { FollowedCamera } from "../three/cameras.js";
-import type { Space } from "../three/eye.js";
-import type { FilterSettings } from "../three/options.js";
+import { CameraFilter, type Drawing, type FilterChange } from "../three/camera-filter.js";
+import type { FollowedCamera, Space } from "../three/cameras.js";
+import type { Cloud } from "../worker/followed-cloud.js";
 import { Gathered, type GatheredNode, type Refused } from "./gathered.js";
 
 /** For how many milliseconds new nodes wait at most while a camera moves. */
@@ -14,22 +11,8 @@ const LONGEST = 2000;
 
 /** The events of a filter of nodes. */
 export interface HiddenPointNodesFilterEvents {
-  /**
-   * A new answer is drawn. `count` is the number of visible points. `nodes` is the number of nodes
-   * in the cloud. `answer` says what the answer is: a map comes before the exact one. For a map, `count`
-   * and `radius` are those of the last answer. Either `viewpoint` or `direction` is null. `radius` is 0 if the
-   * inversion has none. The viewpoint, the direction and the radius are in the root's space.
-   */
-  change: {
-    count: number;
-    nodes: number;
-    milliseconds: number;
-    viewpoint: number[] | null;
-    direction: number[] | null;
-    radius: number;
-    answer: AnswerKind;
-    camera: Camera;
-  };
+  /** A new answer is drawn. `nodes` is the number of nodes in the cloud. Places are in the root's space. */
+  change: FilterChange & { nodes: number };
   /**
    * A node (`points`) or a view (`points` is null) is refused. For a node, this comes only once
    * until the node changes. For views, it comes only once until there is an answer again. Without a
@@ -70,14 +53,13 @@ export abstract class GatheredFilter<Node extends GatheredNode> extends CameraFi
   #gatheredAt = -Infinity;
   #isUnasked = false;
   #visible = 0;
-  #radius = 0;
   /** @internal */
   protected readonly refuseNode: Refused = (error, points) => this.report({ error, points }, false);
 
   /** @internal */
-  protected constructor(root: Space, settings: FilterSettings) {
-    super(root, settings);
-    this.#gathered = new Gathered(settings);
+  protected constructor(root: Space, options: unknown, names: readonly string[] = []) {
+    super(root, options, names);
+    this.#gathered = new Gathered(this.settings);
   }
 
   /** The number of visible points of all nodes, in the last answer. */
@@ -93,6 +75,11 @@ export abstract class GatheredFilter<Node extends GatheredNode> extends CameraFi
   /** Whether the nodes are not those of the last question. @internal */
   protected override get isStale(): boolean {
     return this.#isChanged && !this.frozen;
+  }
+
+  /** @internal */
+  protected override get cloud(): Cloud | undefined {
+    return this.#gathered.cloud;
   }
 
   /** @internal */
@@ -142,7 +129,7 @@ export abstract class GatheredFilter<Node extends GatheredNode> extends CameraFi
   #isPostponed(camera: FollowedCamera | undefined): boolean {
     const last = this.cameras.last;
     const isMapped = last?.answer === "map" && last.isMoving && performance.now() - this.#gatheredAt < LONGEST;
-    const isTurn = this.#isUnasked && camera !== undefined && camera.refinement.due!.kind === "map";
+    const isTurn = this.#isUnasked && camera !== undefined && camera.due!.kind === "map";
     return !this.isEmpty && (isMapped || isTurn);
   }
 
@@ -173,31 +160,19 @@ export abstract class GatheredFilter<Node extends GatheredNode> extends CameraFi
     const gathered = this.#gathered;
     this.#isUnasked = false;
     return this.view(
+      gathered.cloud!,
       camera,
-      (place, stage) => gathered.see(place, stage),
-      (answer, place) => {
+      (answer) => {
         let count = 0;
         this.drawing.begin?.(camera, gathered.points);
         for (const { node, own } of gathered.split(answer)) count += this.drawing.answer(camera, node, own) ?? 0;
         this.#visible = count;
-        this.#radius = answer.radius;
-        return this.#told(place);
+        return { count, nodes: gathered.nodes };
       },
-      (map, place) => {
+      (map) => {
         this.drawing.map(camera, map);
-        return this.#told(place);
+        return { count: this.#visible, nodes: gathered.nodes };
       },
     );
-  }
-
-  #told({ from, isDirection }: Place) {
-    const place = [...from];
-    return {
-      count: this.#visible,
-      nodes: this.#gathered.nodes,
-      viewpoint: isDirection ? null : place,
-      direction: isDirection ? place : null,
-      radius: this.#radius,
-    };
   }
 }

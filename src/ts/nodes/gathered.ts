@@ -2,13 +2,9 @@ import type { Points } from "three";
 
 import { asError, HprError } from "../base/errors.js";
 import { allocating, concatenated } from "../base/memory.js";
-import { prepareCloud } from "../three/cloud.js";
-import { type Cloud, see, type Seen } from "../worker/followed-view.js";
-import type { AskedStage } from "../follow/refinement.js";
 import type { Visibility } from "../cloud/visibility.js";
-import type { Place } from "../query/place.js";
-import type { VisibilityOptions } from "../query/view-options.js";
 import type { FilterSettings } from "../three/options.js";
+import { type Cloud, prepareCloud } from "../worker/followed-cloud.js";
 
 /** One part of the cloud, as the viewer has it. */
 export interface GatheredNode {
@@ -102,8 +98,9 @@ export class Gathered<Node extends GatheredNode> {
     return this.#cloud?.spacing ?? 0;
   }
 
-  async see(place: Place, stage: AskedStage<VisibilityOptions>): Promise<Seen> {
-    return see(this.#cloud!, place, stage);
+  /** Undefined while there are no points. */
+  get cloud(): Cloud | undefined {
+    return this.#cloud;
   }
 
   /** Splits an answer by node. The result has the indices of each node's own points. */
@@ -136,7 +133,7 @@ export class Gathered<Node extends GatheredNode> {
 
   async #create(positions: Float64Array): Promise<void> {
     if (positions.length === 0) return;
-    const cloud = await prepareCloud({ numbers: positions, own: true }, this.#settings);
+    const cloud = await prepareCloud(positions, true, this.#settings);
     if (this.#isClosed) {
       void cloud.dispose();
       throw new HprError("disposed", "this filter has been disposed of");

@@ -4,10 +4,16 @@ import { isDimmed } from "../three/dimmed.js";
 import type { VisibilityMap } from "../cloud/visibility-map.js";
 import { MapTextures } from "../three/mapped-points.js";
 import { requirePoints } from "../three/options.js";
+import type { FilterSettings } from "../three/options.js";
 import type { NodesDrawing } from "./gathered-filter.js";
 import type { Refused } from "./gathered.js";
 import { CloudNode } from "./node.js";
-import type { NodesSettings } from "./options.js";
+
+/** The settings of a filter, which may change, and how nodes are chosen and drawn. */
+export interface NodesSettings extends FilterSettings {
+  hidesPending: boolean;
+  nodes: (() => Iterable<Points>) | undefined;
+}
 
 /** The present nodes. The set is checked in every frame. If there is no change, nothing is allocated. */
 export class NodeSet implements NodesDrawing<CloudNode> {
@@ -49,6 +55,21 @@ export class NodeSet implements NodesDrawing<CloudNode> {
   set enabled(enabled: boolean) {
     this.#enabled = enabled;
     for (const { display } of this.#nodes.values()) display.enabled = enabled;
+  }
+
+  /** Whether hidden points are drawn, but dimmed. A node that cannot be dimmed is refused, and hides them. */
+  get dim(): boolean {
+    return this.#settings.dim;
+  }
+
+  set dim(dim: boolean) {
+    for (const { display, points } of this.#nodes.values()) {
+      try {
+        display.dim = dim;
+      } catch (error) {
+        this.#refused(error as Error, points);
+      }
+    }
   }
 
   /** Draws what this camera sees. */

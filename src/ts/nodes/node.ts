@@ -7,7 +7,7 @@ import { isFiltered, requireUnfiltered } from "../three/drawn-points.js";
 import type { VisibilityMap } from "../cloud/visibility-map.js";
 import type { MapTextures } from "../three/mapped-points.js";
 import type { GatheredNode } from "./gathered.js";
-import type { NodesSettings } from "./options.js";
+import type { NodesSettings } from "./node-set.js";
 import { placeIn } from "./place.js";
 
 const IDENTITY = new Matrix4();

@@ -3,7 +3,6 @@ import type { Camera } from "three";
 import { override } from "../base/override.js";
 import type { VisibilityMap } from "../cloud/visibility-map.js";
 import type { NodesDrawing } from "../nodes/gathered-filter.js";
-import type { FilterSettings } from "../three/options.js";
 import { MODE, withAnswer } from "./shader.js";
 import { Textures } from "./textures.js";
 import { Tile } from "./tiles.js";
@@ -31,9 +30,9 @@ interface Shown {
  */
 export class PotreeDrawing implements NodesDrawing<Tile> {
   enabled = true;
+  dim: boolean;
   version = 0;
   readonly #viewer: PotreeViewer;
-  readonly #settings: FilterSettings;
   readonly #renderer: PotreeRenderer;
   readonly #textures: Textures;
   readonly #tiles = new Map<OctreeNode, Tile>();
@@ -42,9 +41,9 @@ export class PotreeDrawing implements NodesDrawing<Tile> {
   #camera: unknown;
   #frame = 0;
 
-  constructor(viewer: PotreeViewer, settings: FilterSettings) {
+  constructor(viewer: PotreeViewer, dim: boolean) {
     this.#viewer = viewer;
-    this.#settings = settings;
+    this.dim = dim;
     this.#renderer = viewer.pRenderer as PotreeRenderer;
     this.#textures = new Textures(this.#renderer.gl);
     this.#restore = this.#hook();
@@ -160,7 +159,7 @@ export class PotreeDrawing implements NodesDrawing<Tile> {
     const octree: PotreeRenderer["renderOctree"] = (cloud, nodes, camera, target, params = {}) => {
       const material = params.material ?? cloud.material;
       const { vertexShader } = material;
-      const changed = this.#draws(camera) ? withAnswer(vertexShader, this.#settings.dim) : undefined;
+      const changed = this.#draws(camera) ? withAnswer(vertexShader, this.dim) : undefined;
       material.vertexShader = changed ?? vertexShader;
       try {
         renderOctree.call(renderer, cloud, nodes, camera, target, params);

@@ -1,13 +1,13 @@
 import { HprError } from "../base/errors.js";
 import { GatheredFilter } from "../nodes/gathered-filter.js";
-import type { Space } from "../three/eye.js";
-import { type HiddenPointFilterOptions, readFilterOptions } from "../three/options.js";
+import type { Space } from "../three/cameras.js";
+import type { HiddenPointFilterOptions } from "../three/options.js";
 import { PotreeDrawing } from "./drawing.js";
 import type { Tile } from "./tiles.js";
 import { type PotreeViewer, requireViewer } from "./viewer.js";
 
 /** The options of a `HiddenPointFilter`. Potree has no second material for hidden points. */
-export type PotreeFilterOptions = Omit<HiddenPointFilterOptions, "dimMaterial">;
+export type PotreeFilterOptions = Omit<HiddenPointFilterOptions, "dimMaterial" | "cloud">;
 
 const WORLD: Space = {
   updateWorldMatrix: () => undefined,
@@ -36,9 +36,8 @@ export class PotreeFilter extends GatheredFilter<Tile> {
     if (options !== undefined && "dimMaterial" in options) {
       throw new HprError("option", "unknown option dimMaterial: Potree's own material is dimmed");
     }
-    const settings = readFilterOptions(typeof options === "object" ? { nonFinite: "skip", ...options } : options);
-    super(WORLD, settings);
-    this.drawing = new PotreeDrawing(viewer, settings);
+    super(WORLD, typeof options === "object" ? { nonFinite: "skip", ...options } : options);
+    this.drawing = new PotreeDrawing(viewer, this.settings.dim);
     const follow = () => this.update(viewer.scene.getActiveCamera());
     viewer.addEventListener("update", follow);
     this.#leaveViewer = () => viewer.removeEventListener("update", follow);

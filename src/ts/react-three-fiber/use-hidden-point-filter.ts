@@ -2,7 +2,7 @@ import { useFrame, useThree } from "@react-three/fiber";
 import { type RefObject, useEffect, useLayoutEffect, useRef, useState } from "react";
 import type { Points } from "three";
 
-import type { AnswerKind } from "../follow/refinement.js";
+import type { AnswerKind } from "../follow/options.js";
 import { HiddenPointFilter } from "../three/filter.js";
 import type { HiddenPointFilterOptions } from "../three/options.js";
 

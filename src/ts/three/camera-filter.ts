@@ -1,34 +1,47 @@
 import type { Camera } from "three";
 
-import { HprError } from "../base/errors.js";
+import { describe, HprError } from "../base/errors.js";
 import { addTag } from "../base/tag.js";
 import type { Visibility } from "../cloud/visibility.js";
 import { VisibilityMap } from "../cloud/visibility-map.js";
-import { Events as Sender } from "../follow/events.js";
+import { Events as Sender, Readiness } from "../follow/events.js";
 import { Follower, type Round } from "../follow/follower.js";
-import { Readiness } from "../follow/readiness.js";
-import type { AnswerKind, AskedStage } from "../follow/refinement.js";
-import type { FollowSettings } from "../query/follow-options.js";
-import type { Place } from "../query/place.js";
-import type { VisibilityOptions } from "../query/view-options.js";
-import { type FollowedCamera, FollowedCameras } from "./cameras.js";
-import type { Seen } from "../worker/followed-view.js";
-import type { Space } from "./eye.js";
+import type { AnswerKind } from "../follow/options.js";
+import type { Seen } from "../follow/view.js";
+import { type Cloud, see } from "../worker/followed-cloud.js";
+import { type FollowedCamera, FollowedCameras, inSpace, type Space } from "./cameras.js";
+import { changedSettings, type FilterSettings, readFilterOptions } from "./options.js";
 
-interface FilterEvents {
-  change: { count: number; milliseconds: number; answer: AnswerKind; camera: Camera };
-  error: { error: Error };
+/** An answer that is drawn. */
+export interface FilterChange {
+  /** How many points are drawn. For a map, which the graphics card tests the points against, that of the last answer. */
+  count: number;
+  /** The time that the answer took. */
+  milliseconds: number;
+  /** What the answer is: a map comes before the exact answer. */
+  answer: AnswerKind;
+  /** The camera that it is for. */
+  camera: Camera;
+  /** x, y, z in the points' space. Null for an orthographic camera. */
+  viewpoint: number[] | null;
+  /** x, y, z in the points' space. Null for a perspective camera. */
+  direction: number[] | null;
+  /** The radius of the answer, and its exponent; for a map, those of the last answer. 0 if it has none, as with looks. */
+  radius: number;
+  exponent: number;
 }
 
-/** What listeners are told about an answer. */
-export interface Told {
-  count: number;
+interface FilterEvents {
+  change: FilterChange;
+  error: { error: Error };
 }
 
 /** What a filter draws: the points that each camera sees. */
 export interface Drawing {
   /** Whether only the visible points are drawn. */
   enabled: boolean;
+  /** Whether hidden points are drawn, too, but dimmed. */
+  dim: boolean;
   /** Copies the changes of the points since the last frame. */
   follow(): void;
   /** Draws what this camera sees. */
@@ -68,6 +81,7 @@ export abstract class CameraFilter<Events extends FilterEvents> extends Sender<E
   protected readonly follower = new Follower({
     next: () => this.next(),
     refused: (error, again) => {
+      this.#refusal = error;
       if (!again) this.report({ error });
       this.tell();
     },
@@ -80,26 +94,34 @@ export abstract class CameraFilter<Events extends FilterEvents> extends Sender<E
   });
   /** @internal */
   protected abstract readonly drawing: Drawing;
+  /** @internal */
+  protected readonly settings: FilterSettings;
   readonly #object: Space;
-  readonly #settings: FollowSettings;
+  readonly #names: readonly string[];
   /** The errors that listeners have not received yet. They are sent last, because listeners may throw. */
   readonly #untold: { event: Events["error"]; isOfView: boolean }[] = [];
   /** Whether a camera has moved since the cloud was lost. */
   #isMoved = false;
   #isDisposed = false;
   #hasSaid = false;
+  #answered = { radius: 0, exponent: 0 };
+  /** The last refusal, if nothing was answered since. */
+  #refusal: Error | undefined;
+  /** Called when a cloud may have come. */
+  #turns: (() => void)[] = [];
 
   static {
     addTag(this.prototype, "HiddenPointFilter");
   }
 
-  /** `object` has the space of the cloud. */
-  constructor(object: Space, settings: FollowSettings) {
+  /** `object` has the space of the cloud. `names` are those of options that only this filter has. */
+  constructor(object: Space, options: unknown, names: readonly string[] = []) {
     super();
     this.#object = object;
-    this.#settings = settings;
+    this.#names = names;
+    this.settings = readFilterOptions(options, names);
     this.cameras = new FollowedCameras(
-      settings,
+      this.settings,
       () => this.follower.follow(),
       (camera) => {
         this.drawing.drop(camera);
@@ -116,6 +138,60 @@ export abstract class CameraFilter<Events extends FilterEvents> extends Sender<E
 
   set enabled(enabled: boolean) {
     this.drawing.enabled = enabled;
+  }
+
+  /** Whether hidden points are not drawn (`"hide"`), or faintly (`"dim"`). */
+  get mode(): "hide" | "dim" {
+    return this.settings.dim ? "dim" : "hide";
+  }
+
+  /** @throws HprError `option` for another value, or if the material cannot be dimmed. */
+  set mode(mode: "hide" | "dim") {
+    const settings = readFilterOptions({ ...this.settings.given, mode }, this.#names);
+    const before = this.settings.dim;
+    this.settings.dim = settings.dim;
+    try {
+      this.drawing.dim = settings.dim;
+    } catch (error) {
+      this.settings.dim = before;
+      throw error;
+    }
+    this.settings.given = settings.given;
+  }
+
+  /** The option `looks`. If it is set, `exponent`, `radius` and `inversion` are automatic. */
+  get looks(): 2 | 3 | undefined {
+    return this.settings.given.looks;
+  }
+
+  /** @throws HprError `option`. */
+  set looks(looks: 2 | 3 | undefined) {
+    this.#change("looks", looks);
+  }
+
+  /** The option `exponent`. If it is set, `looks`, `thickness`, `radius` and `inversion` are no longer. */
+  get exponent(): number | undefined {
+    return this.settings.given.exponent;
+  }
+
+  /** @throws HprError `option`. */
+  set exponent(exponent: number | undefined) {
+    this.#change("exponent", exponent);
+  }
+
+  /** The option `thickness` of the looks. */
+  get thickness(): number | "auto" | undefined {
+    return this.settings.given.thickness;
+  }
+
+  /** @throws HprError `option`. */
+  set thickness(thickness: number | "auto" | undefined) {
+    this.#change("thickness", thickness);
+  }
+
+  /** The radius of the last answer, in the points' units. 0 before it, and if it has none, as with looks. */
+  get radius(): number {
+    return this.#answered.radius;
   }
 
   /** What is drawn for the camera of the last `update`. Null before the first answer. */
@@ -151,7 +227,7 @@ export abstract class CameraFilter<Events extends FilterEvents> extends Sender<E
         this.leave(followed);
       }
       isChanged = this.noticeChanges();
-      if (followed.isOutdated(this.#settings.stale)) {
+      if (followed.isOutdated(this.settings.stale)) {
         this.drawing.setStale(followed);
         followed.drawn = undefined;
       }
@@ -164,6 +240,30 @@ export abstract class CameraFilter<Events extends FilterEvents> extends Sender<E
     this.tell();
   }
 
+  /**
+   * Whether the camera of the last `update` sees a place in the world, such as that of a label, with the options of the
+   * answer at rest. No point need be there.
+   *
+   * @throws HprError (as a rejection) `option` before the first `update` and for an orthographic camera, `viewpoint`,
+   *   `disposed`, and the error of a refused cloud.
+   */
+  async sees({ x, y, z }: { readonly x: number; readonly y: number; readonly z: number }): Promise<boolean> {
+    if (![x, y, z].every(Number.isFinite)) {
+      throw new HprError("viewpoint", `the place must have finite numbers x, y and z, got ${describe([x, y, z])}`);
+    }
+    while (this.cloud === undefined && !this.#isDisposed) {
+      if (this.#refusal !== undefined) throw this.#refusal;
+      await new Promise<void>((turn) => this.#turns.push(turn));
+    }
+    if (this.cloud === undefined) throw disposed();
+    const place = this.cameras.last?.place;
+    if (place === undefined || place.isDirection) {
+      throw new HprError("option", "sees() needs an update with a perspective camera before");
+    }
+    const { scores: _, ...options } = this.settings.stages.at(-1)!.options;
+    return (await this.cloud.sees(place.from, inSpace(this.#object, [x, y, z]), options))[0] === 1;
+  }
+
   /** Draws everything as it was before, and frees the memory of the cloud. May be called twice. */
   dispose(): void {
     if (this.#isDisposed) return;
@@ -172,9 +272,13 @@ export abstract class CameraFilter<Events extends FilterEvents> extends Sender<E
     this.cameras.stop();
     this.drawing.dispose();
     this.dropCloud();
+    this.#turn();
     // The caller of dispose() knows this already, so this is never an unhandled rejection.
-    this.readiness.reject(new HprError("disposed", "this filter has been disposed of"), true);
+    this.readiness.reject(disposed(), true);
   }
+
+  /** The cloud that is asked. @internal */
+  protected abstract get cloud(): Cloud | undefined;
 
   /** Whether the points are not those of the cloud. @internal */
   protected abstract get isStale(): boolean;
@@ -201,33 +305,52 @@ export abstract class CameraFilter<Events extends FilterEvents> extends Sender<E
   }
 
   /**
-   * Asks the cloud about a camera's view. `draw` draws the answer, and returns what listeners are told, or undefined
+   * Asks the cloud about a camera's view. `draw` draws the answer, and returns what else listeners are told, or undefined
    * if the answer is about other points. `drawMap` does the same with a map.
    *
    * @internal
    */
-  protected view(
+  protected view<Told extends { count: number }>(
+    cloud: Cloud,
     camera: FollowedCamera,
-    ask: (place: Place, stage: AskedStage<VisibilityOptions>) => Seen | Promise<Seen>,
-    draw: (answer: Visibility, place: Place) => Told | undefined,
-    drawMap: (map: VisibilityMap, place: Place) => Told | undefined,
+    draw: (answer: Visibility) => Told | undefined,
+    drawMap: (map: VisibilityMap) => Told | undefined,
   ): Round<Seen> {
-    return camera.round(this.#settings.stale, ask, (answer, kind, milliseconds, place) => {
-      const drawn = answer instanceof VisibilityMap ? drawMap(answer, place) : draw(answer, place);
-      if (drawn === undefined) return undefined;
-      this.follower.answered();
-      if (kind !== "map") this.readiness.resolve();
-      const change = { ...drawn, milliseconds, answer: kind, camera: camera.camera };
-      return () => {
-        this.tell();
-        this.send("change" as never, change as never);
-      };
-    });
+    camera.askedAt = performance.now();
+    return camera.see(
+      this.settings.stale,
+      (place, stage) => see(cloud, place, stage),
+      (answer, kind, milliseconds, { from, isDirection }) => {
+        const isMap = answer instanceof VisibilityMap;
+        const drawn = isMap ? drawMap(answer) : draw(answer);
+        if (drawn === undefined) return undefined;
+        this.follower.answered();
+        this.#refusal = undefined;
+        if (!isMap) {
+          this.#answered = { radius: answer.radius, exponent: answer.exponent };
+          this.readiness.resolve();
+        }
+        const [viewpoint, direction] = isDirection ? [null, [...from]] : [[...from], null];
+        const place = { camera: camera.camera, viewpoint, direction };
+        const change = { ...drawn, ...this.#answered, ...place, milliseconds, answer: kind };
+        return () => {
+          this.tell();
+          this.send("change" as never, change as never);
+        };
+      },
+    );
+  }
+
+  /** Asks with another option. */
+  #change(name: Parameters<typeof changedSettings>[1], value: unknown): void {
+    Object.assign(this.settings, changedSettings(this.settings, name, value, this.#names));
+    this.cameras.again();
+    this.follower.follow();
   }
 
   /** Says once that no map can be drawn. */
   #sayUnable(): void {
-    if (this.#settings.mapped !== undefined && this.drawing.isAble === false && !this.#hasSaid) {
+    if (this.settings.mapped !== undefined && this.drawing.isAble === false && !this.#hasSaid) {
       this.#hasSaid = true;
       console.info(
         "hidden-point-removal: this renderer or material takes no map of directions, so the last answer stays while the camera moves",
@@ -251,5 +374,14 @@ export abstract class CameraFilter<Events extends FilterEvents> extends Sender<E
       }
       this.send("error" as never, event as never);
     }
+    this.#turn();
   }
+
+  #turn(): void {
+    for (const turn of this.#turns.splice(0)) turn();
+  }
+}
+
+function disposed(): HprError {
+  return new HprError("disposed", "this filter has been disposed of");
 }

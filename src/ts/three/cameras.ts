@@ -1,14 +1,16 @@
-import type { Camera } from "three";
+import type { Camera, Matrix4, Object3D } from "three";
 
-import type { Stage } from "../follow/refinement.js";
-import { type FollowSettings, REST, stagesFor } from "../query/follow-options.js";
+import { describe, HprError } from "../base/errors.js";
+import { type FollowSettings, REST, type Stage, stagesFor } from "../follow/options.js";
+import { FollowedView } from "../follow/view.js";
+import type { Place } from "../query/place.js";
 import type { VisibilityOptions } from "../query/view-options.js";
-import { FollowedView } from "../worker/followed-view.js";
-import { placeOf, requireCamera, type Space } from "./eye.js";
 
 /** One camera's view of a cloud, and how far its answers have come. */
 export class FollowedCamera extends FollowedView {
   readonly camera: Camera;
+  /** When its last question was asked. */
+  askedAt = -Infinity;
 
   constructor(camera: Camera, wake: () => void) {
     super(wake);
@@ -17,7 +19,7 @@ export class FollowedCamera extends FollowedView {
 
   /** Whether the view has moved a moment ago. */
   get isMoving(): boolean {
-    return this.refinement.stillFor < REST;
+    return this.stillFor < REST;
   }
 }
 
@@ -71,44 +73,42 @@ export class FollowedCameras {
   look(followed: FollowedCamera, object: Space): boolean {
     const { place, rounding } = placeOf(followed.camera, object);
     if (!followed.move(place, this.#spacing, rounding)) return false;
-    followed.refinement.moved(this.#stagesFor(followed));
+    followed.moved(this.#stagesFor(followed));
     return true;
   }
 
-  /** All cameras ask again, because the cloud has changed. */
-  again(points: number, spacing: number): void {
+  /** All cameras ask again, because the cloud or the settings have changed. */
+  again(points = this.#points, spacing = this.#spacing): void {
     this.#points = points;
     this.#spacing = spacing;
     for (const followed of this.#cameras.values()) {
-      const { refinement, isMoving } = followed;
       const stages = this.#stagesFor(followed);
       // At rest, the exact answer comes at once: a map would only delay it.
-      refinement.begin(stages, stages[0]?.kind === "map" && !isMoving ? 1 : 0);
+      followed.begin(stages, stages[0]?.kind === "map" && !followed.isMoving ? 1 : 0);
     }
   }
 
   /**
-   * The camera whose question is due. Maps go first. With `begunOnly`, views that have no answer yet
-   * are left out.
+   * The camera whose question is due. Cameras take turns: the one that waits longest goes first. With `begunOnly`, views
+   * that have no answer yet are left out.
    */
   due(begunOnly: boolean): FollowedCamera | undefined {
     let first: FollowedCamera | undefined;
     for (const followed of this.#cameras.values()) {
-      const isLeftOut = begunOnly && !followed.refinement.isBegun;
-      const stage = followed.place !== undefined && !isLeftOut ? followed.refinement.due : undefined;
-      if (stage?.kind === "map") return followed;
-      if (stage !== undefined) first ??= followed;
+      const isLeftOut = followed.place === undefined || (begunOnly && !followed.isBegun);
+      const isDue = !isLeftOut && followed.due !== undefined;
+      if (isDue && (first === undefined || followed.askedAt < first.askedAt)) first = followed;
     }
     return first;
   }
 
   /** Whether the last question about each view was answered, or refused. */
   get areSettled(): boolean {
-    return [...this.#cameras.values()].every(({ refinement, place }) => refinement.isSettled || place === undefined);
+    return [...this.#cameras.values()].every(({ isSettled, place }) => isSettled || place === undefined);
   }
 
   stop(): void {
-    for (const { refinement } of this.#cameras.values()) refinement.stop();
+    for (const followed of this.#cameras.values()) followed.stop();
   }
 
   #stagesFor({ place }: FollowedCamera): readonly Stage<VisibilityOptions>[] {
@@ -121,9 +121,95 @@ export class FollowedCameras {
     if (this.#cameras.size > MOST) {
       const [oldest, given] = this.#cameras.entries().next().value!;
       this.#cameras.delete(oldest);
-      given.refinement.stop();
+      given.stop();
       this.#dropped(given);
     }
     return followed;
   }
+}
+
+/** How far a matrix may differ from a similarity: rounding to single precision makes such differences. */
+const DISTORTION = 1e-5;
+/** The relative rounding error of world coordinates after the product of several matrices. */
+const ROUNDING = 1e-14;
+
+/** The space of a cloud: that of an object, or the world. */
+export type Space = Pick<Object3D, "updateWorldMatrix"> & { readonly matrixWorld: Pick<Matrix4, "elements"> };
+
+/**
+ * The place that a camera looks from, or the direction that it looks along, in the space of the points, and how far
+ * rounding may move this place.
+ *
+ * @throws HprError `option` for a scale that is not uniform.
+ */
+function placeOf(camera: Camera, points: Space): { place: Place; rounding: number } {
+  camera.updateWorldMatrix(true, false);
+  const c = camera.matrixWorld.elements;
+  // The projection matrix shows this, also for cameras of other classes.
+  const isDirection = camera.projectionMatrix.elements[15] !== 0 && !("isPerspectiveCamera" in camera);
+  if (isDirection) {
+    // The third axis of a camera points backwards.
+    const along = inSpace(points, [-c[8], -c[9], -c[10]], true);
+    const length = Math.hypot(...along);
+    return { place: { from: along.map((part) => part / length), isDirection }, rounding: 0 };
+  }
+  const from = inSpace(points, [c[12], c[13], c[14]]);
+  const m = points.matrixWorld.elements;
+  const reach = [12, 13, 14].reduce((sum, i) => sum + Math.abs(c[i]!) + Math.abs(m[i]!), 0);
+  return { place: { from, isDirection }, rounding: (ROUNDING * reach) / uniformScale(m) };
+}
+
+/**
+ * A place in the world, or a direction, in the space of the points.
+ *
+ * @throws HprError `option` for a scale that is not uniform.
+ */
+export function inSpace(points: Space, world: readonly [number, number, number], isDirection = false): number[] {
+  points.updateWorldMatrix(true, false);
+  const m = points.matrixWorld.elements;
+  uniformScale(m);
+  // Cramer's rule. The translation is subtracted first, so far-away places lose no precision.
+  const [x, y, z] = isDirection ? world : [world[0] - m[12], world[1] - m[13], world[2] - m[14]];
+  const [ax, ay, az] = [m[5] * m[10] - m[6] * m[9], m[6] * m[8] - m[4] * m[10], m[4] * m[9] - m[5] * m[8]];
+  const [bx, by, bz] = [m[9] * m[2] - m[10] * m[1], m[10] * m[0] - m[8] * m[2], m[8] * m[1] - m[9] * m[0]];
+  const [cx, cy, cz] = [m[1] * m[6] - m[2] * m[5], m[2] * m[4] - m[0] * m[6], m[0] * m[5] - m[1] * m[4]];
+  const determinant = m[0] * ax + m[1] * ay + m[2] * az;
+  return [
+    (x * ax + y * ay + z * az) / determinant,
+    (x * bx + y * by + z * bz) / determinant,
+    (x * cx + y * cy + z * cz) / determinant,
+  ];
+}
+
+/** @throws HprError `option` if the scale from the points' space to the world is not uniform. */
+export function requireUniformScale(points: Object3D): void {
+  points.updateWorldMatrix(true, false);
+  uniformScale(points.matrixWorld.elements);
+}
+
+function requireCamera(camera: unknown): void {
+  if (typeof camera !== "object" || camera === null || !("isCamera" in camera)) {
+    throw new HprError("option", `camera must be a THREE.Camera, got ${describe(camera)}`);
+  }
+}
+
+/** Returns the scale from the points' space to the world. A mirrored space is accepted. */
+function uniformScale(m: readonly number[]): number {
+  const a = Math.hypot(m[0]!, m[1]!, m[2]!);
+  const b = Math.hypot(m[4]!, m[5]!, m[6]!);
+  const c = Math.hypot(m[8]!, m[9]!, m[10]!);
+  const ab = m[0]! * m[4]! + m[1]! * m[5]! + m[2]! * m[6]!;
+  const bc = m[4]! * m[8]! + m[5]! * m[9]! + m[6]! * m[10]!;
+  const ca = m[8]! * m[0]! + m[9]! * m[1]! + m[10]! * m[2]!;
+  const most = Math.max(a, b, c);
+  const skew = Math.max(Math.abs(ab), Math.abs(bc), Math.abs(ca)) / most;
+  const isUniform = most - Math.min(a, b, c) <= DISTORTION * most && skew <= DISTORTION * most && most > 0;
+  if (!isUniform || !Number.isFinite(most)) {
+    const scales = [a, b, c].map((length) => Number(length.toPrecision(6))).join(", ");
+    throw new HprError(
+      "option",
+      `scale must be the same along all axes (and not zero), in all parents together, got ${scales}`,
+    );
+  }
+  return most;
 }

@@ -42,9 +42,9 @@ export class DimmedPoints {
    *
    * @throws HprError `option` in the same case as `follow`.
    */
-  show({ attribute, visible }: Order, total: number): void {
+  show({ attribute, indices: { length } }: Order, total: number): void {
     this.#mapped.show(undefined);
-    this.#draw(attribute, visible, total - visible);
+    this.#draw(attribute, length, total - length);
   }
 
   /** Draws the points that a map hides. Throws as `show`. */

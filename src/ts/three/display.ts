@@ -17,7 +17,8 @@ interface View {
 export class Display {
   readonly drawn: DrawnPoints;
   readonly #points: Points;
-  readonly #dimmed: DimmedPoints | undefined;
+  readonly #settings: FilterSettings;
+  #dimmed: DimmedPoints | undefined;
   /** Undefined if no maps are asked. */
   readonly #mapped: MappedPoints | undefined;
   readonly #views = new Map<unknown, View>();
@@ -36,6 +37,7 @@ export class Display {
   constructor(points: Points, settings: FilterSettings, textures?: MapTextures) {
     const { dim, mapped, patch } = settings;
     this.#points = points;
+    this.#settings = settings;
     this.#dimmed = dim ? new DimmedPoints(points, settings) : undefined;
     this.#mapped = mapped && new MappedPoints(points, patch!);
     this.drawn = new DrawnPoints(points, dim);
@@ -58,10 +60,27 @@ export class Display {
     }
   }
 
+  /** Whether hidden points are drawn, but dimmed. */
+  get dim(): boolean {
+    return this.#dimmed !== undefined;
+  }
+
+  /** @throws HprError `option` if the material cannot be dimmed. */
+  set dim(dim: boolean) {
+    if (dim === this.dim) return;
+    this.#dimmed?.dispose();
+    this.#dimmed = dim ? new DimmedPoints(this.#points, this.#settings) : undefined;
+    this.drawn.listsHidden = dim;
+    for (const { order } of this.#views.values()) {
+      if (order !== undefined) this.drawn.list(order.indices, order);
+    }
+    this.#show();
+  }
+
   /** How many points are drawn, without the dimmed ones. */
   get count(): number {
     if (this.#shownMap !== undefined) return this.drawnIndices.length;
-    return this.#order?.visible ?? this.drawn.total;
+    return this.#order?.indices.length ?? this.drawn.total;
   }
 
   /**
@@ -118,6 +137,21 @@ export class Display {
     if (this.#layers !== undefined) return new Uint32Array(0);
     const shown = this.#shownMap;
     return shown === undefined ? this.drawn.drawn : this.drawn.drawnBy(shown.texture.map, shown.matrix);
+  }
+
+  /**
+   * Whether a point is drawn, and not dimmed.
+   *
+   * @throws HprError `option` if there is no point with this number.
+   */
+  isVisible(index: number): boolean {
+    const shown = this.#shownMap;
+    const isDrawn = this.drawn.isDrawn(index);
+    return (
+      isDrawn &&
+      this.#layers === undefined &&
+      shown?.texture.map.hides(this.drawn.placeOf(index, shown.matrix))[0] !== 1
+    );
   }
 
   /** While true, nothing is drawn: the points wait for their first answer. */

@@ -19,7 +19,10 @@ interface Taken {
 /** The visible points in the answer for one camera. */
 export interface Order {
   readonly attribute: BufferAttribute;
-  visible: number;
+  /** Their ascending indices among the points that were read. */
+  indices: Uint32Array;
+  /** One byte for each position: 1 for a visible point. Made when it is asked for. */
+  mask?: Uint8Array | undefined;
 }
 
 /** The geometries that have a filter. A second filter would take the first one's index for the user's own. */
@@ -37,17 +40,20 @@ const taken = new WeakSet<BufferGeometry>();
  */
 export class DrawnPoints {
   readonly #points: Points;
-  readonly #listsHidden: boolean;
+  /** Whether orders also list the hidden points. */
+  listsHidden: boolean;
   #taken: Taken | undefined;
   /** The numbers of the points that were drawn without a filter. Undefined if all were drawn, in their order. */
   #ids: Uint32Array | undefined;
   #total = 0;
+  /** The mask of all points that are drawn without a filter. */
+  #whole: Pick<Order, "mask"> | undefined;
   /** The order that the geometry draws. Undefined while it draws all points. */
   #shown: Order | undefined;
 
   constructor(points: Points, listsHidden: boolean) {
     this.#points = points;
-    this.#listsHidden = listsHidden;
+    this.listsHidden = listsHidden;
   }
 
   /** How many points are drawn without a filter. */
@@ -58,16 +64,40 @@ export class DrawnPoints {
   /** The numbers of the points that are drawn. */
   get drawn(): Uint32Array {
     const order = this.#shown;
-    if (order !== undefined) return (order.attribute.array as Uint32Array).slice(0, order.visible);
+    if (order !== undefined) return (order.attribute.array as Uint32Array).slice(0, order.indices.length);
     return this.#ids?.slice() ?? Uint32Array.from({ length: this.#total }, (_, i) => i);
   }
 
   /** The numbers of all points, without those that a map hides. `place`: from the points' space to the map's. */
   drawnBy(map: VisibilityMap, place?: readonly number[]): Uint32Array {
-    const position = this.#taken?.position ?? requirePositions(this.#points.geometry.attributes["position"]);
-    const hidden = map.hides(readPositions(position, this.#ids, place).numbers);
+    const hidden = map.hides(readPositions(this.#position, this.#ids, place).numbers);
     const numbers = this.#ids ?? Uint32Array.from(hidden, (_, i) => i);
     return numbers.filter((_, i) => hidden[i] === 0);
+  }
+
+  /**
+   * Whether the point with this number is among those that the geometry draws.
+   *
+   * @throws HprError `option` if there is no such point.
+   */
+  isDrawn(index: number): boolean {
+    const { count } = this.#position;
+    if (!(Number.isInteger(index) && index >= 0 && index < count)) {
+      throw new HprError("option", `index must be the number of one of ${count} points, got ${describe(index)}`);
+    }
+    if (this.#shown === undefined && this.#ids === undefined) return true;
+    const order = this.#shown ?? (this.#whole ??= {});
+    order.mask ??= maskOf(this.drawn, count);
+    return order.mask[index] === 1;
+  }
+
+  /** Where a point is. `place`: from the points' space to another one. */
+  placeOf(index: number, place?: readonly number[]): Float32Array | Float64Array {
+    return readPositions(this.#position, Uint32Array.of(index), place).numbers;
+  }
+
+  get #position(): PositionAttribute {
+    return this.#taken?.position ?? requirePositions(this.#points.geometry.attributes["position"]);
   }
 
   /** Whether the geometry still draws the points that were read last. Their positions may have changed. */
@@ -81,7 +111,7 @@ export class DrawnPoints {
       index === (own?.attribute ?? last.index) &&
       (last.index === null || last.index.version === last.indexVersion) &&
       drawRange?.start === (own === undefined ? last.start : 0) &&
-      drawRange.count === (own?.visible ?? last.count)
+      drawRange.count === (own?.indices.length ?? last.count)
     );
   }
 
@@ -125,16 +155,17 @@ export class DrawnPoints {
     const { attribute } = order;
     const numbers = attribute.array as Uint32Array;
     numbers.set(indices);
-    if (this.#listsHidden) listHidden(numbers, indices.length);
-    const [ids, end] = [this.#ids, this.#listsHidden ? this.#total : indices.length];
+    if (this.listsHidden) listHidden(numbers, indices.length);
+    const [ids, end] = [this.#ids, this.listsHidden ? this.#total : indices.length];
     if (ids !== undefined) {
       for (let i = 0; i < end; i++) numbers[i] = ids[numbers[i]!]!;
     }
-    order.visible = indices.length;
+    order.indices = indices;
+    order.mask = undefined;
     attribute.clearUpdateRanges();
     attribute.addUpdateRange(0, end);
     attribute.needsUpdate = true;
-    if (this.#shown === order) this.#taken?.geometry.setDrawRange(0, order.visible);
+    if (this.#shown === order) this.#taken?.geometry.setDrawRange(0, indices.length);
     return order;
   }
 
@@ -142,7 +173,7 @@ export class DrawnPoints {
     const attribute = allocating(`${this.#total} indices`, () => {
       return new BufferAttribute(new Uint32Array(this.#total), 1).setUsage(DynamicDrawUsage);
     });
-    return { attribute, visible: 0 };
+    return { attribute, indices: new Uint32Array() };
   }
 
   /** Draws the points of this order. */
@@ -150,7 +181,7 @@ export class DrawnPoints {
     if (this.#taken !== undefined && this.#shown !== order) {
       this.#shown = order;
       this.#taken.geometry.setIndex(order.attribute);
-      this.#taken.geometry.setDrawRange(0, order.visible);
+      this.#taken.geometry.setDrawRange(0, order.indices.length);
     }
   }
 
@@ -162,14 +193,14 @@ export class DrawnPoints {
     const { geometry, index, start, count } = this.#taken!;
     if (geometry.index === shown.attribute) geometry.setIndex(index);
     const range = geometry.drawRange as BufferGeometry["drawRange"] | undefined;
-    if (range?.start === 0 && range.count === shown.visible) geometry.setDrawRange(start, count);
+    if (range?.start === 0 && range.count === shown.indices.length) geometry.setDrawRange(start, count);
   }
 
   /** Leaves the geometry as if there had been no filter. */
   release(): void {
     this.showAll();
     if (this.#taken !== undefined) taken.delete(this.#taken.geometry);
-    this.#taken = this.#ids = undefined;
+    this.#taken = this.#ids = this.#whole = undefined;
     this.#total = 0;
   }
 }
@@ -208,7 +239,7 @@ function requireFilterable(geometry: BufferGeometry): PositionAttribute {
 }
 
 /**
- * Returns the numbers of the points that an index and a draw range draw, in the order of drawing.
+ * Returns the numbers of the points that an index and a draw range draw, in the order of drawing, each of them once.
  * Returns undefined if there is no index and all points are drawn.
  */
 function drawnIds(
@@ -222,14 +253,23 @@ function drawnIds(
   const count = Math.max(0, end - start);
   if (index === null && count === length) return undefined;
   const ids = allocating(`${count} indices`, () => new Uint32Array(count));
+  const known = allocating(`${length} bytes`, () => new Uint8Array(length));
+  let found = 0;
   for (let i = 0; i < count; i++) {
     const id = index?.getX(start + i) ?? start + i;
     if (!(id >= 0 && id < length)) {
       throw new HprError("option", `points: index[${start + i}] is ${id}, but there are ${length} positions`);
     }
-    ids[i] = id;
+    if (known[id] === 0) ids[found++] = id;
+    known[id] = 1;
   }
-  return ids;
+  return found === count ? ids : ids.slice(0, found);
+}
+
+function maskOf(indices: Uint32Array, length: number): Uint8Array {
+  const mask = allocating(`${length} bytes`, () => new Uint8Array(length));
+  for (const index of indices) mask[index] = 1;
+  return mask;
 }
 
 /** Refuses values that three itself could not draw, although it would report no error. */

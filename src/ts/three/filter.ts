@@ -1,24 +1,19 @@
-import type { Camera, Points } from "three";
+import type { Points } from "three";
 
+import { HprError } from "../base/errors.js";
 import type { Round } from "../follow/follower.js";
-import type { AnswerKind } from "../follow/refinement.js";
-import { CameraFilter } from "./camera-filter.js";
-import { prepareCloud } from "./cloud.js";
-import { type Cloud, see } from "../worker/followed-view.js";
+import { type Cloud, prepareCloud } from "../worker/followed-cloud.js";
+import { CameraFilter, type FilterChange } from "./camera-filter.js";
+import { requireUniformScale } from "./cameras.js";
 import { Display } from "./display.js";
 import { requireUnfiltered } from "./drawn-points.js";
-import { requireUniformScale } from "./eye.js";
 import { patchMaterial, type PatchMaterial } from "./map-material.js";
-import { type FilterSettings, type HiddenPointFilterOptions, readFilterOptions, requirePoints } from "./options.js";
+import { type HiddenPointFilterOptions, requirePoints } from "./options.js";
 
 /** The events of a filter. */
 export interface HiddenPointFilterEvents {
-  /**
-   * A new answer for a camera. `count` is the number of points that are drawn; for a map, which the graphics
-   * card tests the points against, it is that of the last answer. `milliseconds` is the time that it took.
-   * `answer` says what it is: a map comes before the exact answer.
-   */
-  change: { count: number; milliseconds: number; answer: AnswerKind; camera: Camera };
+  /** A new answer for a camera is drawn. */
+  change: FilterChange;
   /**
    * A view or the points were refused. This comes only once until there is an answer again. Without
    * a listener, the error is an unhandled rejection.
@@ -58,7 +53,6 @@ export class HiddenPointFilter extends CameraFilter<HiddenPointFilterEvents> {
   protected override readonly drawing: Display;
   /** Whether the points must be read before anything else. @internal */
   protected override isStale = true;
-  readonly #settings: FilterSettings;
   #cloud: Cloud | undefined;
   /** The count of the last answer. */
   #count = 0;
@@ -70,13 +64,11 @@ export class HiddenPointFilter extends CameraFilter<HiddenPointFilterEvents> {
    */
   constructor(points: Points, options?: HiddenPointFilterOptions) {
     requirePoints(points);
-    const settings = readFilterOptions(options);
+    super(points, options, ["cloud"]);
     requireUnfiltered(points.geometry);
     requireUniformScale(points);
-    super(points, settings);
-    settings.patch = this.patch;
-    this.#settings = settings;
-    this.drawing = new Display(points, settings);
+    this.settings.patch = this.patch;
+    this.drawing = new Display(points, this.settings);
     try {
       this.follower.follow(true);
     } catch (error) {
@@ -86,8 +78,8 @@ export class HiddenPointFilter extends CameraFilter<HiddenPointFilterEvents> {
   }
 
   /**
-   * The indices of the points that are drawn, without the dimmed ones: a copy, in the order of drawing. While a
-   * map is drawn, each call tests all points against it.
+   * The indices of the points that are drawn, without the dimmed ones: a copy, in the order of drawing. Each is there
+   * once, also if the geometry's own index repeats it. While a map is drawn, each call tests all points against it.
    */
   get visible(): Uint32Array {
     return this.drawing.drawnIndices;
@@ -98,9 +90,24 @@ export class HiddenPointFilter extends CameraFilter<HiddenPointFilterEvents> {
     return this.drawing.count;
   }
 
+  /**
+   * Whether a point is drawn, and not dimmed.
+   *
+   * @param index its number in the attribute `position`.
+   * @throws HprError `option` if there is no such point.
+   */
+  isVisible(index: number): boolean {
+    return this.drawing.isVisible(index);
+  }
+
   /** How materials are made to leave out hidden points. @internal */
   protected get patch(): PatchMaterial {
     return patchMaterial;
+  }
+
+  /** @internal */
+  protected override get cloud(): Cloud | undefined {
+    return this.#cloud;
   }
 
   /** @internal */
@@ -114,8 +121,8 @@ export class HiddenPointFilter extends CameraFilter<HiddenPointFilterEvents> {
     const [cloud, camera] = [this.#cloud, this.enabled ? this.cameras.due(this.frozen) : undefined];
     if (cloud === undefined || camera === undefined) return undefined;
     return this.view(
+      cloud,
       camera,
-      (place, stage) => see(cloud, place, stage),
       (answer) => {
         if (!this.drawing.drawn.isSame) return undefined;
         const count = this.drawing.answer(camera, answer.indices);
@@ -149,7 +156,7 @@ export class HiddenPointFilter extends CameraFilter<HiddenPointFilterEvents> {
 
   /** @internal */
   protected override dropCloud(): void {
-    void this.#cloud?.dispose();
+    if (this.#cloud !== this.settings.cloud) void this.#cloud?.dispose();
     this.#cloud = undefined;
     this.isStale = true;
   }
@@ -161,7 +168,11 @@ export class HiddenPointFilter extends CameraFilter<HiddenPointFilterEvents> {
         this.dropCloud();
         this.isStale = false;
         this.drawing.leaveOthers();
-        return prepareCloud(this.drawing.drawn.take(), this.#settings);
+        const { numbers, own } = this.drawing.drawn.take();
+        const { cloud } = this.settings;
+        if (cloud === undefined) return prepareCloud(numbers, own, this.settings);
+        requireLength(cloud, numbers.length / 3);
+        return cloud;
       },
       use: (cloud) => {
         this.#cloud = cloud;
@@ -171,9 +182,17 @@ export class HiddenPointFilter extends CameraFilter<HiddenPointFilterEvents> {
         queueMicrotask(() => {
           if (!this.follower.isBusy) this.readiness.resolve();
         });
-        return undefined;
+        return () => this.tell();
       },
-      leave: (cloud) => void cloud.dispose(),
+      leave: (cloud) => {
+        if (cloud !== this.settings.cloud) void cloud.dispose();
+      },
     };
+  }
+}
+
+function requireLength(cloud: Cloud, points: number): void {
+  if (cloud.length !== points) {
+    throw new HprError("option", `cloud must have the ${points} points that the geometry draws, got ${cloud.length}`);
   }
 }

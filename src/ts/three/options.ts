@@ -1,9 +1,12 @@
 import type { Material, Points } from "three";
 
 import { describe, HprError } from "../base/errors.js";
-import { FOLLOW_OPTIONS, type FollowOptions, type FollowSettings, followSettings } from "../query/follow-options.js";
-import { givenOptions, pick } from "../query/options.js";
-import { VIEW_OPTIONS, viewSettings, type VisibilityOptions } from "../query/view-options.js";
+import { FOLLOW_OPTIONS, type FollowOptions, type FollowSettings, followSettings } from "../follow/options.js";
+import { PointCloud } from "../cloud/cloud.js";
+import { givenOptions } from "../query/options.js";
+import { VIEW_OPTIONS, type VisibilityOptions } from "../query/view-options.js";
+import { WorkerPointCloud } from "../worker/client.js";
+import type { Cloud } from "../worker/followed-cloud.js";
 import type { PatchMaterial } from "./map-material.js";
 
 /** The options of a filter. The options of `VisibilityOptions` set how each view is computed. */
@@ -28,15 +31,24 @@ export interface HiddenPointFilterOptions extends VisibilityOptions, FollowOptio
    * `"skip"` treats these points as hidden. Default `"error"`.
    */
   nonFinite?: "error" | "skip" | undefined;
+  /**
+   * A cloud of the same points in the same order, which the filter asks instead of a cloud of its own. It is not
+   * disposed of with the filter. `worker` and `nonFinite` are then those of the cloud.
+   */
+  cloud?: PointCloud | WorkerPointCloud | undefined;
 }
 
 /** {@link HiddenPointFilterOptions} with all defaults. The core checks the ranges in `view`. */
 export interface FilterSettings extends FollowSettings {
+  /** The options as they were given. */
+  given: HiddenPointFilterOptions;
   inWorker: boolean;
   /** Whether hidden points are drawn, but dimmed. */
   dim: boolean;
   dimMaterial: Material | undefined;
   nonFinite: "error" | "skip";
+  /** A cloud of the same points. Undefined: the filter makes one. */
+  cloud: Cloud | undefined;
   /** How materials are made to leave out hidden points. Undefined where points are drawn without them. */
   patch?: PatchMaterial;
 }
@@ -46,23 +58,48 @@ export const DIMMED = 0.15;
 
 const OWN_OPTIONS = ["worker", "mode", "dimMaterial", "nonFinite"] as const;
 
-export function readFilterOptions(options: unknown): FilterSettings {
-  const given = givenOptions(options, VIEW_OPTIONS, FOLLOW_OPTIONS, OWN_OPTIONS);
-  const view = pick(given, VIEW_OPTIONS);
-  viewSettings(view, 3);
-  const inWorker = oneOf(given, "worker", [true, false]);
-  const follow = followSettings(given, view, { isLater: inWorker, hasShaders: true });
-  const dim = oneOf(given, "mode", ["hide", "dim"]) === "dim";
+/** `others` are the names of options that this filter alone has. */
+export function readFilterOptions(options: unknown, others: readonly string[] = []): FilterSettings {
+  const given = givenOptions(options, VIEW_OPTIONS, FOLLOW_OPTIONS, OWN_OPTIONS, others);
+  const cloud = readCloud(given["cloud"]);
+  const inWorker = oneOf(given, "worker", [true, false]) && !(cloud instanceof PointCloud);
+  const follow = followSettings(given, { isLater: inWorker, hasShaders: true });
   if (follow.stages.some((stage) => stage.options.scores === true)) {
     throw new HprError("option", "a filter draws no scores: ask a PointCloud for them");
   }
   return {
     ...follow,
+    given,
     inWorker,
-    dim,
-    dimMaterial: readMaterial(given["dimMaterial"], dim),
+    dim: oneOf(given, "mode", ["hide", "dim"]) === "dim",
+    dimMaterial: readMaterial(given["dimMaterial"]),
     nonFinite: oneOf(given, "nonFinite", ["error", "skip"]),
+    cloud,
   };
+}
+
+/** The options that may be changed later, and those that each of them excludes. */
+const EXCLUDED = {
+  looks: ["radius", "exponent", "inversion"],
+  exponent: ["radius", "inversion", "looks", "thickness", "surface"],
+  thickness: [],
+  surface: [],
+} as const satisfies Record<string, readonly string[]>;
+
+/**
+ * The settings after an option was changed. Another one that it excludes is dropped.
+ *
+ * @throws HprError `option`.
+ */
+export function changedSettings(
+  { given }: FilterSettings,
+  name: keyof typeof EXCLUDED,
+  value: unknown,
+  others: readonly string[],
+): FilterSettings {
+  const dropped: readonly string[] = value === undefined ? [] : EXCLUDED[name];
+  const kept = Object.entries(given).filter(([other]) => !dropped.includes(other));
+  return readFilterOptions({ ...Object.fromEntries(kept), [name]: value }, others);
 }
 
 const WAY_OUT =
@@ -82,7 +119,11 @@ export function requirePoints(points: unknown): asserts points is Points {
 }
 
 /** Reads an option that has one of these values. The first value is the default. */
-function oneOf<T extends string | boolean>(given: Record<string, unknown>, name: string, values: readonly [T, T]): T {
+export function oneOf<T extends string | boolean>(
+  given: Readonly<Record<string, unknown>>,
+  name: string,
+  values: readonly [T, T],
+): T {
   const value = given[name] ?? values[0];
   if (!values.includes(value as T)) {
     throw new HprError(
@@ -93,11 +134,15 @@ function oneOf<T extends string | boolean>(given: Record<string, unknown>, name:
   return value as T;
 }
 
-function readMaterial(material: unknown, dim: boolean): Material | undefined {
+function readMaterial(material: unknown): Material | undefined {
   if (material === undefined) return undefined;
   if (typeof material !== "object" || material === null || !("isMaterial" in material)) {
     throw new HprError("option", `dimMaterial must be a THREE.Material, got ${describe(material)}`);
   }
-  if (!dim) throw new HprError("option", `dimMaterial needs mode "dim"`);
   return material as Material;
+}
+
+function readCloud(cloud: unknown): Cloud | undefined {
+  if (cloud === undefined || cloud instanceof PointCloud || cloud instanceof WorkerPointCloud) return cloud;
+  throw new HprError("option", `cloud must be a PointCloud or a WorkerPointCloud, got ${describe(cloud)}`);
 }

@@ -2,12 +2,12 @@ import { addTag } from "../base/tag.js";
 import { HprError } from "../base/errors.js";
 import type { Visibility } from "../cloud/visibility.js";
 import { Follower, type Round } from "../follow/follower.js";
-import { type AnswerKind, type AskedStage, Refinement } from "../follow/refinement.js";
-import { FOLLOW_OPTIONS, type FollowOptions, followSettings, stagesFor } from "../query/follow-options.js";
-import { type CloudSize, givenOptions, listener, pick } from "../query/options.js";
-import { isNear, type Place } from "../query/place.js";
+import { type AnswerKind, FOLLOW_OPTIONS, type FollowOptions, followSettings, stagesFor } from "../follow/options.js";
+import { type AskedStage, FollowedView } from "../follow/view.js";
+import { type CloudSize, givenOptions, listener } from "../query/options.js";
+import type { Place } from "../query/place.js";
 import { readViewpoint } from "../query/positions.js";
-import { VIEW_OPTIONS, viewSettings, type VisibilityOptions } from "../query/view-options.js";
+import { VIEW_OPTIONS, type VisibilityOptions } from "../query/view-options.js";
 
 /** The options of a {@link ViewStream}: those of each view, and how answers follow the viewpoint. */
 export interface ViewStreamOptions extends VisibilityOptions, FollowOptions {
@@ -66,8 +66,7 @@ export class ViewStream implements AsyncIterable<StreamedAnswer> {
   readonly #options: ViewStreamOptions;
   readonly #settings: ReturnType<typeof followSettings>;
   readonly #follower: Follower;
-  readonly #refinement: Refinement<VisibilityOptions>;
-  #place: Place | undefined;
+  readonly #view = new FollowedView(() => this.#follower.follow());
   /** The size of the cloud that was asked about. */
   #size: CloudSize | undefined;
   #last: { answer: StreamedAnswer; stage: AskedStage } | undefined;
@@ -81,20 +80,15 @@ export class ViewStream implements AsyncIterable<StreamedAnswer> {
   /** @internal */
   constructor(cloud: StreamedCloud, options: unknown) {
     const given = givenOptions(options, VIEW_OPTIONS, FOLLOW_OPTIONS, ["onAnswer", "onError"]);
-    const view = pick(given, VIEW_OPTIONS);
-    viewSettings(view, cloud.dimension);
     for (const name of ["onAnswer", "onError"]) listener(given, name);
     this.#cloud = cloud;
     this.#options = given;
-    this.#settings = followSettings(given, view, { dimension: cloud.dimension });
+    this.#settings = followSettings(given, { dimension: cloud.dimension });
     this.#follower = new Follower({
       next: () => this.#round(),
       refused: (error, again) => {
         this.#refused(error, again);
       },
-    });
-    this.#refinement = new Refinement<VisibilityOptions>(() => {
-      this.#follower.follow();
     });
   }
 
@@ -125,7 +119,7 @@ export class ViewStream implements AsyncIterable<StreamedAnswer> {
 
   /** Whether the last answer is final: no better one comes until the view or the cloud changes. */
   get settled(): boolean {
-    return this.#refinement.isSettled && !this.#follower.isBusy;
+    return this.#view.isSettled && !this.#follower.isBusy;
   }
 
   /**
@@ -155,7 +149,7 @@ export class ViewStream implements AsyncIterable<StreamedAnswer> {
   /** Ends the stream. The cloud stays. May be called twice. */
   dispose(): void {
     this.#isOver = true;
-    this.#refinement.begin([]);
+    this.#view.begin([]);
     this.#follower.stop();
     this.#wake(({ resolve }) => {
       resolve();
@@ -164,22 +158,21 @@ export class ViewStream implements AsyncIterable<StreamedAnswer> {
 
   #want(place: Place): void {
     const size = this.#cloud.size();
-    const isSame = this.#place !== undefined && size === this.#size && isNear(this.#place, place, size.spacing);
-    if (!isSame && !this.#isOver) {
-      this.#place = place;
+    const isMoved = this.#view.move(place, size.spacing);
+    if ((isMoved || size !== this.#size) && !this.#isOver) {
       this.#size = size;
-      this.#refinement.moved(stagesFor(this.#settings, size.length));
+      this.#view.moved(stagesFor(this.#settings, size.length));
     }
     this.#follower.follow();
   }
 
   #round(): Round | undefined {
-    const place = this.#place;
-    if (place === undefined || this.#refinement.due === undefined) {
+    const { place, due } = this.#view;
+    if (place === undefined || due === undefined) {
       return undefined;
     }
     const begun = performance.now();
-    return this.#refinement.round(
+    return this.#view.round(
       ({ options, signal }) => this.#cloud.ask(place, { ...options, signal }),
       (visibility, stage) => this.#use(visibility, stage, place, performance.now() - begun),
     );

@@ -1,14 +1,28 @@
 import { describe, HprError, naming } from "../base/errors.js";
-import type { AnswerKind, Stage } from "../follow/refinement.js";
-import { givenOptions } from "./options.js";
-import { VIEW_OPTIONS, viewSettings, type VisibilityOptions } from "./view-options.js";
+import { givenOptions, pick } from "../query/options.js";
+import { VIEW_OPTIONS, viewSettings, type VisibilityOptions } from "../query/view-options.js";
+
+/**
+ * What an answer is. `"operator"` is the exact answer of one flip. `"looks"` is an answer of two or three
+ * looks. `"map"` is a map of directions, by which the graphics card leaves out hidden points.
+ */
+export type AnswerKind = "map" | "operator" | "looks";
+
+/** One of the questions that are asked about a view, one after another. */
+export interface Stage<Options = unknown> {
+  readonly kind: AnswerKind;
+  readonly options: Options;
+  /** The milliseconds without a move after which this is asked. */
+  readonly rest: number;
+}
 
 /** How answers follow a viewpoint that moves. */
 export interface FollowOptions {
   /**
    * Asked when the viewpoint has been at rest for 100 ms. These are the options of a view, as if no
    * others were given. `false`: nothing more is asked. Default: the view itself with `looks: 3`, in three
-   * dimensions and if none of `radius`, `exponent`, `inversion` and `looks` is given.
+   * dimensions and if none of `radius`, `exponent`, `inversion` and `looks` is given. A `thickness` then belongs
+   * to these looks.
    */
   settle?: VisibilityOptions | false | undefined;
   /**
@@ -41,25 +55,37 @@ export const REST = 100;
 const FINAL_OPTIONS = ["radius", "exponent", "inversion", "looks"] as const;
 
 /**
- * `view` are the options of the view itself, which were checked already. `dimension` is that of the cloud.
- * Maps are for answers that come later: `isLater`.
+ * Reads the options of a view, and how its answers follow a viewpoint. `dimension` is that of the cloud. Maps are for
+ * answers that come later: `isLater`.
  */
 export function followSettings(
   given: Record<string, unknown>,
-  view: VisibilityOptions,
   { dimension = 3, isLater = true, hasShaders = false } = {},
 ): FollowSettings {
-  const { settle = usualSettle(view, dimension), stale = hasShaders ? "map" : "keep" } = given;
+  const { stale = hasShaders ? "map" : "keep" } = given;
   if (stale !== "all" && stale !== "keep" && !(stale === "map" && hasShaders)) {
     throw new HprError("option", `stale must be ${hasShaders ? `"map", ` : ""}"all" or "keep", got ${describe(stale)}`);
   }
-  const stages = [stageOf(view)];
-  if (settle !== false) {
-    stages.push({ ...stageOf(readSettle(settle)), rest: REST });
-  }
+  const stages = stagesOf(given, dimension);
   const atRest = stages.at(-1)!;
   const isMapped = stale === "map" && isLater && atRest.options.radius !== "opposite";
   return { stages, mapped: isMapped ? mappedStages(atRest) : undefined, stale };
+}
+
+/** The view itself, and what is asked at rest. */
+function stagesOf(given: Record<string, unknown>, dimension: number): Stage<VisibilityOptions>[] {
+  const view: VisibilityOptions = pick(given, VIEW_OPTIONS);
+  const { settle } = given;
+  const isFinal = dimension !== 3 || FINAL_OPTIONS.some((name) => view[name] !== undefined);
+  if (settle === undefined && !isFinal) {
+    const looks: VisibilityOptions = { ...view, looks: 3 };
+    viewSettings({ ...looks }, dimension);
+    const plain = { ...view, thickness: undefined };
+    return [stageOf(plain), stageOf(looks, REST)];
+  }
+  viewSettings({ ...view }, dimension);
+  const isAll = settle === undefined || settle === false;
+  return isAll ? [stageOf(view)] : [stageOf(view), stageOf(readSettle(settle), REST)];
 }
 
 /** The stages for a cloud with this number of points. `isMapped`: maps can be drawn for this view. */
@@ -79,11 +105,6 @@ function mappedStages(atRest: Stage<VisibilityOptions>): Stage<VisibilityOptions
   ];
 }
 
-function usualSettle(view: VisibilityOptions, dimension: number): VisibilityOptions | false {
-  const isFinal = dimension !== 3 || FINAL_OPTIONS.some((name) => view[name] !== undefined);
-  return isFinal ? false : { ...view, looks: 3 };
-}
-
 function readSettle(settle: unknown): VisibilityOptions {
   return naming("settle", () => {
     const given = givenOptions(settle, VIEW_OPTIONS);
@@ -92,7 +113,6 @@ function readSettle(settle: unknown): VisibilityOptions {
   });
 }
 
-function stageOf(options: VisibilityOptions): Stage<VisibilityOptions> {
-  const kind: AnswerKind = options.looks === undefined ? "operator" : "looks";
-  return { kind, options, rest: 0 };
+function stageOf(options: VisibilityOptions, rest = 0): Stage<VisibilityOptions> {
+  return { kind: options.looks === undefined ? "operator" : "looks", options, rest };
 }

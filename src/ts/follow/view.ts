@@ -1,20 +1,10 @@
 import { HprError } from "../base/errors.js";
+import type { Visibility } from "../cloud/visibility.js";
+import { VisibilityMap } from "../cloud/visibility-map.js";
+import { isFarFrom, isNear, type Place } from "../query/place.js";
+import type { VisibilityOptions } from "../query/view-options.js";
 import type { Round } from "./follower.js";
-import { Pace } from "./pace.js";
-
-/**
- * What an answer is. `"operator"` is the exact answer of one flip. `"looks"` is an answer of two or three
- * looks. `"map"` is a map of directions, by which the graphics card leaves out hidden points.
- */
-export type AnswerKind = "map" | "operator" | "looks";
-
-/** One of the questions that are asked about a view, one after another. */
-export interface Stage<Options = unknown> {
-  readonly kind: AnswerKind;
-  readonly options: Options;
-  /** The milliseconds without a move after which this is asked. */
-  readonly rest: number;
-}
+import type { AnswerKind, FollowSettings, Stage } from "./options.js";
 
 /** A question that was asked. */
 export interface AskedStage<Options = unknown> extends Stage<Options> {
@@ -151,6 +141,96 @@ export class Refinement<Options = unknown> {
       this.#next = this.#stages.length;
       this.#isSettled = true;
     }
+  }
+}
+
+/** What a view shows. */
+export type Seen = Visibility | VisibilityMap;
+
+/** A view of a cloud that moves, and what is drawn of it. */
+export class FollowedView extends Refinement<VisibilityOptions> {
+  /** The question whose answer is drawn. Undefined: all points are drawn. */
+  drawn: AskedStage | undefined;
+  /** The place that questions are about. Undefined before the first one. */
+  place: Place | undefined;
+  #before: Place | undefined;
+  #drawnFrom: Place | undefined;
+  #map: VisibilityMap | undefined;
+
+  /** What is drawn. Null: all points. */
+  get answer(): AnswerKind | null {
+    return this.drawn?.kind ?? null;
+  }
+
+  /** Takes up the place of a frame. Returns whether it is new. `rounding`: how far rounding alone may move it. */
+  move(place: Place, spacing: number, rounding = 0): boolean {
+    this.#before = this.place;
+    const isNew = this.place === undefined || !isNear(this.place, place, spacing, rounding);
+    if (isNew) this.place = place;
+    return isNew;
+  }
+
+  /** Whether the answer that is drawn must give way to all points. */
+  isOutdated(stale: FollowSettings["stale"]): boolean {
+    if (this.drawn === undefined || this.drawn.isCurrent()) {
+      return false;
+    }
+    const [map, from, before] = [this.#map, this.#drawnFrom, this.#before];
+    const isFar =
+      map !== undefined && from !== undefined && before !== undefined && isFarFrom(from, before, map.center);
+    return isFar || stale === "all";
+  }
+
+  /**
+   * The round that asks the question that is due. `draw` draws the answer, and returns the function that
+   * informs the listeners, or undefined if the answer is about other points.
+   */
+  see(
+    stale: FollowSettings["stale"],
+    ask: (place: Place, stage: AskedStage<VisibilityOptions>) => Seen | Promise<Seen>,
+    draw: (answer: Seen, kind: AnswerKind, milliseconds: number, place: Place) => (() => void) | undefined,
+  ): Round<Seen> {
+    const [begun, place] = [performance.now(), this.place!];
+    return this.round(
+      (stage) => ask(place, stage),
+      (answer, stage) => {
+        if (stale === "all" && !stage.isCurrent()) {
+          return undefined;
+        }
+        const tell = draw(answer, stage.kind, performance.now() - begun, place);
+        if (tell !== undefined) {
+          this.drawn = stage;
+          this.#drawnFrom = place;
+          if (answer instanceof VisibilityMap) this.#map = answer;
+        }
+        return tell;
+      },
+    );
+  }
+}
+
+/** A map that takes longer, in milliseconds, is older than a frame when it is drawn. */
+const FRAME = 16;
+/** As many points as a map has by default. */
+const MOST = 32_768;
+const LEAST = 10_000;
+
+/** How many points the next map has: so many that it takes a frame, also on a slower machine. */
+class Pace {
+  #points = MOST;
+  #before = FRAME;
+
+  get points(): number {
+    return this.#points;
+  }
+
+  /** A map took so many milliseconds. Two maps decide: a single one may have waited, or be the first of its size. */
+  took(milliseconds: number): void {
+    const [faster, slower] = [Math.min(milliseconds, this.#before), Math.max(milliseconds, this.#before)];
+    const times = faster > FRAME ? 0.8 : slower < 0.75 * FRAME ? 1.25 : 1;
+    const points = Math.min(Math.max(Math.round(this.#points * times), LEAST), MOST);
+    this.#before = points === this.#points ? milliseconds : FRAME;
+    this.#points = points;
   }
 }
 
