@@ -59,6 +59,9 @@ pub use answers::threads::Threads;
 pub use answers::union::ring_of_viewpoints;
 pub use answers::visibility::Visibility;
 pub use answers::visibility_map::{MapOptions, VisibilityMap};
+#[cfg(feature = "stop")]
+#[doc(hidden)]
+pub use base::beat::{Stopped, stop_by};
 pub use base::error::Error;
 pub use base::limit::MAX_POINTS;
 pub use cloud::point_cloud::{NonFinite, PointCloud};

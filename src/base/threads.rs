@@ -41,7 +41,11 @@ fn deal_out<State, T, E: Send>(
     let next = AtomicUsize::new(0);
     let refused: Option<(usize, E)> = None;
     let outcome = Mutex::new((pass, refused));
+    #[cfg(feature = "stop")]
+    let stop = crate::base::beat::stop();
     let work = || {
+        #[cfg(feature = "stop")]
+        crate::base::beat::stop_by(stop.clone());
         let mut state = state();
         loop {
             let number = next.fetch_add(1, Ordering::Relaxed);
