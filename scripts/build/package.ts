@@ -3,14 +3,14 @@ import { copyFileSync, mkdirSync, rmSync, writeFileSync } from "node:fs";
 import { inRoot, TSC } from "../lib/paths.js";
 import { mustRun, say } from "../lib/run.js";
 import { unlessUnchanged } from "../lib/stamp.js";
-import { E57 } from "./e57.js";
+import { FILES } from "./files.js";
 import { bundleGlobal, EMBEDDED, embedWasm, embedWorker } from "./embed.js";
 import { GLUE, MODULES } from "./wasm.js";
 
 const GENERATED = [
   ...Object.keys(MODULES).flatMap((folder) => GLUE.map((file) => `${folder}/${file}`)),
   ...EMBEDDED.map((file) => `wasm/${file}`),
-  E57,
+  FILES,
 ];
 
 /** The script for pages without a bundler. */

@@ -38,7 +38,7 @@ export async function buildWasm(): Promise<void> {
       "scripts/build/panics.ts",
       "package-lock.json",
     ],
-    ignore: ["src/ts", "src/e57", "tools/wasm/target"],
+    ignore: ["src/ts", "src/files", "tools/wasm/target"],
     outputs: Object.keys(MODULES).flatMap((folder) => GLUE.map((file) => `src/ts/${folder}/${file}`)),
   };
   const result = await unlessUnchanged(work, async () => {

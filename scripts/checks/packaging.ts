@@ -19,7 +19,7 @@ const INDISPENSABLE = [
   "dist/index.d.ts",
   "dist/wasm/hpr_bg.wasm",
   "dist/lite/hpr_bg.wasm",
-  "dist/formats/e57/e57.wasm",
+  "dist/formats/files.wasm",
   "README.md",
   "LICENSE-MIT",
   "THIRD_PARTY.md",

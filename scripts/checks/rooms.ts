@@ -29,9 +29,9 @@ export const roomsCheck: Check = {
 type Imports = Map<string, Set<string>>;
 
 function importsOfAll(): Imports {
-  // `e57` is a crate of its own.
+  // `files` is a crate of its own.
   const files = readdirSync(source, { recursive: true, encoding: "utf8" })
-    .filter((file) => file.endsWith(".rs") && !file.startsWith("e57/"))
+    .filter((file) => file.endsWith(".rs") && !file.startsWith("files/"))
     .map((file) => join(source, file));
   const all = new Set(files);
   return new Map(files.map((file) => [relative(source, file), importsOf(file, all)]));

@@ -24,7 +24,7 @@ interface CratePackage {
 
 /** The crates from which the modules are compiled. Programs that only run during the compilation do not count. */
 export async function cratesOfWasm(): Promise<Component[]> {
-  const found = [...(await cratesOf("src/cdylib/Cargo.toml")), ...(await cratesOf("src/e57/Cargo.toml"))];
+  const found = [...(await cratesOf("src/cdylib/Cargo.toml")), ...(await cratesOf("src/files/Cargo.toml"))];
   return [...new Map(found.map((crate) => [crate.name, crate])).values()];
 }
 

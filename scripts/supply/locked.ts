@@ -3,7 +3,7 @@ import { readFileSync } from "node:fs";
 import { inRoot } from "../lib/paths.js";
 
 const CRATES_IO = "registry+https://github.com/rust-lang/crates.io-index";
-const OWN = new Set(["hidden-point-removal", "hpr", "hpr-e57", "hpr-tests", "dependent", "hpr-wasm-tools"]);
+const OWN = new Set(["hidden-point-removal", "hpr", "hpr-files", "hpr-tests", "dependent", "hpr-wasm-tools"]);
 const NPM = "https://registry.npmjs.org/";
 
 /** The entries of the lock files that have no checksum or do not come from the two registries. */

@@ -2,7 +2,6 @@ export { type ChosenColumns, type CloudData, readCloud, type ReadOptions, type S
 export { type CameraOfImage, type FileSource, type ImageSize, readCameras } from "./files/read-cameras.js";
 export { colmapVis } from "./files/cameras/vis.js";
 export type { Crs, Unit } from "./formats/las/crs.js";
-export type { LazPerf } from "./formats/las/laz-perf.js";
 export type { Values } from "./formats/numbers.js";
 export { HprError, type HprErrorCode } from "./base/errors.js";
 export type { Camera, CameraModel, Intrinsics, Pose } from "./query/camera.js";

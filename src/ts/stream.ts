@@ -1,7 +1,6 @@
 export { HprError, type HprErrorCode } from "./base/errors.js";
 export type { ResolvedInversion } from "./query/view-options.js";
 export type { Crs, Unit } from "./formats/las/crs.js";
-export type { LazPerf } from "./formats/las/laz-perf.js";
 export { OctreeStep } from "./stream/look.js";
 export { type Octree, openOctree } from "./stream/octree.js";
 export type { OctreeOptions, OctreeProgress, OctreeViewOptions } from "./stream/options.js";

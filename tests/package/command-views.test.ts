@@ -8,7 +8,7 @@ import { commandIn, numpy } from "./command-support";
 import { bumpySphere, readyPackage } from "./support";
 
 const { PointCloud, cameraFromPose, intrinsicsFromFieldOfView } = await readyPackage();
-const { run, spawned, write, read, lines, place } = commandIn("command-views");
+const { run, spawned, write, read, lines } = commandIn("command-views");
 
 const COUNT = 1500;
 const sphere = bumpySphere(11, COUNT);

@@ -149,6 +149,35 @@ describe("files that contradict themselves", () => {
     expect(notes!.length).toBeGreaterThan(0);
   });
 
+  /** Changes the record of LAZ, which begins with the place of its contents. */
+  const laszip = (name: string, change: (view: DataView, at: number) => void) =>
+    changed(fixture(name), (view, bytes) => {
+      change(view, Buffer.from(bytes.buffer).indexOf("laszip encoded") - 2 + 54);
+    });
+
+  it("LAZ: chunks of any size, which some writers call 0, are read; parts of a point in version 4 are refused", async () => {
+    const whole = await readCloud(path("octree.copc.laz"));
+    const zero = laszip("octree.copc.laz", (view, at) => {
+      expect(view.getUint32(at + 12, true)).toBe(2 ** 32 - 1);
+      view.setUint32(at + 12, 0, true);
+    });
+    expect((await readCloud(buffer(zero))).positions).toEqual(whole.positions);
+    const newer = laszip("ball-14.laz", (view, at) => {
+      expect(view.getUint16(at + 38, true)).toBe(3);
+      view.setUint16(at + 38, 4, true);
+    });
+    expect(await refused(newer)).toMatch(/compressed as LAZ item version 4, which is not read/);
+  });
+
+  it("LAZ that is cut ends with an error", async () => {
+    for (const name of ["ball-12.laz", "ball-14.laz"]) {
+      for (const share of [0.2, 0.5, 0.9]) {
+        const cut = fixture(name).subarray(0, share * fixture(name).length);
+        expect(await refused(cut)).toMatch(/^load: /);
+      }
+    }
+  });
+
   it("tables with lines that are no points, below the first one", async () => {
     const content = "4\n1 2 3\n4 5\n6 7 8\n9 x 1\n";
     expect(await refused(content)).toMatch(/^load: .*line 3 is not a point, it has 2 columns/);

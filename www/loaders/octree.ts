@@ -2,7 +2,7 @@ import { init } from "hidden-point-removal";
 import { openOctree } from "hidden-point-removal/stream";
 import { displayScale } from "../../src/ts/formats/colors.js";
 import type { LoadedCloud } from "../cloud/cloud.ts";
-import { startLazPerf } from "./decoders.ts";
+import { compileFiles } from "./decoders.ts";
 import { decimalsOf } from "./loaded.ts";
 
 /** The most points that are shown of a streamed octree while the camera moves: soon read, and soon answered. */
@@ -21,10 +21,8 @@ export async function overviewOf(
   from: string | Blob,
   { limit, streamFrom }: { limit: number; streamFrom: number },
 ): Promise<LoadedCloud | null> {
-  await init();
-  const perf = startLazPerf(name);
-  perf.catch(() => undefined);
-  const octree = await openOctree(from, { lazPerf: perf, colors: true, retries: 0 }).catch(() => null);
+  const [wasm] = await Promise.all([compileFiles(name), init()]);
+  const octree = await openOctree(from, { wasm, colors: true, retries: 0 }).catch(() => null);
   if (octree === null || octree.points <= streamFrom) return null;
   const { positions, colors } = await octree.coarse(Math.min(limit, streamFrom, OVERVIEW));
   const scale = colors ? displayScale([colors]) : 0;

@@ -21,7 +21,6 @@ export async function readCloud(loading: Loading): Promise<LoadedCloud> {
 
 async function readBy(loading: Loading): Promise<LoadedCloud> {
   const { name, blob } = loading;
-  const lazPerf = async () => (await import("./decoders.ts")).startLazPerf(name);
-  const e57 = async () => (await import("./decoders.ts")).compileE57(name);
-  return loaded(name, await readFile({ ...loading, source: blobSource(blob), single: true, lazPerf, e57 }));
+  const wasm = async () => (await import("./decoders.ts")).compileFiles(name);
+  return loaded(name, await readFile({ ...loading, source: blobSource(blob), single: true, wasm }));
 }

@@ -2,7 +2,7 @@
 import { init, type MergeOptions } from "hidden-point-removal";
 import { type Octree, openOctree } from "hidden-point-removal/stream";
 import type { Streamed } from "../cloud/cloud.ts";
-import { startLazPerf } from "../loaders/decoders.ts";
+import { compileFiles } from "../loaders/decoders.ts";
 import { LoadProblem } from "../loaders/problem.ts";
 import type { StreamReply, StreamStep, StreamTold, StreamView } from "./protocol.ts";
 
@@ -30,8 +30,8 @@ self.onmessage = ({ data: told }: MessageEvent<StreamTold>) => {
 
 /** Opens the octree for the first view. If that fails, the next view tries again. */
 function open({ from, name, colorScale, points }: Streamed): Promise<Octree> {
-  opening ??= init()
-    .then(() => openOctree(from, { lazPerf: startLazPerf(name), cache: KEPT, colors: colorScale !== null }))
+  opening ??= Promise.all([compileFiles(name), init()])
+    .then(([wasm]) => openOctree(from, { wasm, cache: KEPT, colors: colorScale !== null }))
     .then((octree) => {
       // The coarser levels on the page are those of the file that was opened first.
       if (octree.points !== points) throw new LoadProblem(`${name} has changed. Open it again.`);

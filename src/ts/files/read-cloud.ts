@@ -3,14 +3,14 @@ import type { ChosenColumns as Chosen } from "../formats/axes.js";
 import type { CloudFile } from "../formats/cloud-file.js";
 import { displayColors } from "../formats/colors.js";
 import type { Crs, Unit } from "../formats/las/crs.js";
-import type { LazPerf } from "../formats/las/laz-perf.js";
 import type { Values } from "../formats/numbers.js";
 import { readFile } from "../formats/read.js";
 import { indicesByStation } from "../formats/stations.js";
-import { type Binary, compile, compiledOnce, compileOwn, type InitInput } from "../instance/compile.js";
+import type { InitInput } from "../instance/compile.js";
 import { flag, givenOptions, listener } from "../query/options.js";
 import { abortError, BY_SIGNAL, readSignal } from "../worker/abort.js";
 import { type FileSource, refusal, sourceOf } from "./source-of.js";
+import { compiler } from "./wasm.js";
 
 /** The columns that are x, y and z: their names, or their numbers from 1. */
 export type ChosenColumns = readonly [string | number, string | number, string | number];
@@ -25,13 +25,8 @@ export interface ReadOptions {
   columns?: ChosenColumns | undefined;
   /** Whether a file that contradicts itself is read as far as possible, with a note. Default false: it is refused. */
   damaged?: boolean | undefined;
-  /**
-   * The LAZ decoder: what `createLazPerf()` of the package `laz-perf` returns. Pages need it for LAZ and COPC,
-   * because the address of its wasm is theirs to know. Node finds it by itself.
-   */
-  lazPerf?: LazPerf | Promise<LazPerf> | undefined;
-  /** The wasm that reads E57, if the file that comes with the package cannot be found: its address or its bytes. */
-  e57?: InitInput | undefined;
+  /** The wasm that reads E57 and LAZ, if the file that comes with the package cannot be found: its address or its bytes. */
+  wasm?: InitInput | undefined;
 }
 
 /** A place from which points of a file were measured. */
@@ -80,31 +75,15 @@ export async function readCloud(source: FileSource, options: ReadOptions = {}): 
   }
 }
 
-const binary: Binary = {
-  file: "e57.wasm",
-  wayOut:
-    "Serve e57.wasm (the package exports it as hidden-point-removal/e57.wasm) and pass its address or its bytes as the " +
-    "option e57 of readCloud (docs/FILES.md)",
-};
-
-/** Compiles the wasm that reads E57. The address is one literal expression, which bundlers look for. */
-export const compileE57 = compiledOnce(() =>
-  compileOwn(() => new URL("../formats/e57/e57.wasm", import.meta.url), binary),
-);
-
 function readSettings(options: unknown) {
-  const given = givenOptions(options, ["signal", "onProgress", "columns", "damaged", "lazPerf", "e57"]);
-  const { columns, lazPerf, e57 } = given;
-  if (lazPerf !== undefined && (typeof lazPerf !== "object" || lazPerf === null)) {
-    throw new HprError("option", `lazPerf must be what createLazPerf() returns, got ${describe(lazPerf)}`);
-  }
+  const given = givenOptions(options, ["signal", "onProgress", "columns", "damaged", "wasm"]);
+  const { columns } = given;
   return {
     signal: readSignal(given["signal"]),
     onProgress: listener(given, "onProgress") as ReadOptions["onProgress"],
     chosen: columns === undefined ? undefined : chosenColumns(columns),
     damaged: flag(given, "damaged"),
-    lazPerf: lazPerf === undefined ? undefined : () => Promise.resolve(lazPerf as LazPerf | Promise<LazPerf>),
-    e57: e57 === undefined ? compileE57 : async () => await compile(e57 as InitInput, binary),
+    wasm: compiler(given["wasm"]),
   };
 }
 

@@ -110,7 +110,7 @@ export class CloudBuilder {
   }
 }
 
-function grown<T extends Values>(values: T, length: number): T {
+export function grown<T extends Values>(values: T, length: number): T {
   const larger = allocating(length, () => new (values.constructor as new (length: number) => T)(length));
   larger.set(values);
   return larger;

@@ -2,7 +2,6 @@ import type { ChosenColumns } from "./axes.js";
 import type { Up } from "./axes.js";
 import type { Crs, Unit } from "./las/crs.js";
 import type { LasSource } from "./las/details.js";
-import type { LazPerf } from "./las/laz-perf.js";
 import type { FilledColumn } from "./column.js";
 import type { Source } from "./source.js";
 
@@ -31,10 +30,8 @@ export interface Reading {
   single?: boolean | undefined;
   /** The folder of a glTF file, in which its other files are. Without it, they cannot be read. */
   base?: string | undefined;
-  /** Starts the LAZ decoder. */
-  lazPerf?: (() => Promise<LazPerf>) | undefined;
-  /** Compiles the wasm that reads E57. */
-  e57?: (() => Promise<WebAssembly.Module>) | undefined;
+  /** Compiles the wasm that reads E57 and LAZ. */
+  wasm?: (() => Promise<WebAssembly.Module>) | undefined;
   signal?: AbortSignal | undefined;
   /** The progress from 0 to 1. */
   onProgress?: ((fraction: number) => void) | undefined;

@@ -31,7 +31,7 @@ async function readBy(reading: Reading): Promise<CloudFile> {
     return (await import("./read-gltf.js")).readGltf(reading);
   }
   if (/^ply\s/.test(start)) return readPly(reading);
-  if (start.startsWith("ASTM-E57")) return (await import("./e57/read-e57.js")).readE57(reading);
+  if (start.startsWith("ASTM-E57")) return (await import("./e57.js")).readE57(reading);
   // A comment of any file may mention PCD.
   if (/^(#\s*\.PCD\b|VERSION\s|FIELDS\s)/.test(start) || (ending === "pcd" && /^(VERSION|FIELDS)\s/im.test(start))) {
     return readPcd(reading);

@@ -2,7 +2,8 @@ import type { Copc, Hierarchy } from "copc";
 
 import { asError, HprError } from "../base/errors.js";
 import { crsOf } from "../formats/las/crs.js";
-import type { ChunkLayout, LazPerf } from "../formats/las/laz-perf.js";
+import { type ChunkLayout, LazDecoder } from "../formats/las/laz.js";
+import type { CompileFiles } from "../formats/wasm.js";
 import { checkRecords, decompress, hasColors } from "./laz-chunk.js";
 import type { OctreeSettings } from "./options.js";
 import { broken, type Part, type RangeReader, readPart } from "./source.js";
@@ -10,11 +11,8 @@ import { childCell, type NodePoints, type OctreeNode, Tree, triple, type Triple 
 
 type Library = typeof import("copc");
 
-/** The decoder of all octrees that were opened without one. */
-let started: Promise<LazPerf> | undefined;
-
 /** Opens a cloud-optimized point cloud (copc.io): an octree in one LAZ file. */
-export async function openCopc(name: string, read: RangeReader, { lazPerf, colors }: OctreeSettings): Promise<Tree> {
+export async function openCopc(name: string, read: RangeReader, { wasm, colors }: OctreeSettings): Promise<Tree> {
   const library = await loadLibrary();
   let copc: Copc;
   try {
@@ -25,12 +23,7 @@ export async function openCopc(name: string, read: RangeReader, { lazPerf, color
     }
     throw new HprError("load", `${name} is not a COPC file, or it is broken: ${asError(cause).message}`, { cause });
   }
-  // The types of laz-perf need those of Emscripten.
-  const { createLazPerf } = library.Las.PointData as unknown as { createLazPerf: () => Promise<LazPerf> };
-  const perf = lazPerf ?? (started ??= createLazPerf());
-  // This error is reported when the first node is read.
-  perf.catch(() => undefined);
-  return new CopcTree(name, read, library, copc, perf, colors);
+  return new CopcTree(name, read, library, copc, wasm, colors);
 }
 
 async function loadLibrary(): Promise<Library> {
@@ -45,21 +38,15 @@ class CopcTree extends Tree {
   readonly root: OctreeNode;
   readonly #read: RangeReader;
   readonly #library: Library;
-  readonly #perf: Promise<LazPerf>;
+  readonly #wasm: CompileFiles;
+  #decoder: LazDecoder | undefined;
   readonly #layout: ChunkLayout;
   /** Whether colors are read. */
   readonly #isColored: boolean;
   /** Entries of nodes that have a page of their own. */
   readonly #beside = new WeakMap<OctreeNode, Hierarchy.Node>();
 
-  constructor(
-    name: string,
-    read: RangeReader,
-    library: Library,
-    copc: Copc,
-    perf: Promise<LazPerf>,
-    wantsColors: boolean,
-  ) {
+  constructor(name: string, read: RangeReader, library: Library, copc: Copc, wasm: CompileFiles, wantsColors: boolean) {
     const { header, info } = copc;
     const corner = (numbers: readonly number[], from = 0) => triple((axis) => numbers[from + axis]!);
     super({
@@ -76,7 +63,7 @@ class CopcTree extends Tree {
     this.#isColored = wantsColors && hasColors(this.#layout);
     this.#read = read;
     this.#library = library;
-    this.#perf = perf;
+    this.#wasm = wasm;
     this.root = this.node(keyOf(0, [0, 0, 0]), 0, [0, 0, 0]);
     this.defer(this.root, partOf(info.rootHierarchyPage));
   }
@@ -84,17 +71,10 @@ class CopcTree extends Tree {
   async read(node: OctreeNode, signal?: AbortSignal): Promise<NodePoints> {
     const { name } = this.facts;
     const chunk = await readPart(name, this.#read, node.part, signal);
-    let perf: LazPerf;
-    try {
-      perf = await this.#perf;
-    } catch (cause) {
-      const why = asError(cause).message;
-      throw new HprError("load", `the decoder laz-perf did not start (${why}); pass it as the option lazPerf`, {
-        cause,
-      });
-    }
+    const module = await this.#wasm();
+    this.#decoder ??= new LazDecoder(module, this.#layout);
     const colors = this.#isColored ? new Uint16Array(3 * node.count) : undefined;
-    const integers = decompress(name, node.key, chunk, node.count, this.#layout, perf, colors);
+    const integers = decompress(name, node.key, chunk, node.count, this.#decoder, colors);
     return { positions: this.placed(node, integers), colors };
   }
 

@@ -1,5 +1,4 @@
-import { type ChunkLayout, decodeChunk, type LazPerf } from "../formats/las/laz-perf.js";
-import { chunkParts } from "../formats/las/laz.js";
+import type { ChunkLayout, LazDecoder } from "../formats/las/laz.js";
 import { broken } from "./source.js";
 
 /** The place of red, green and blue in a point of format 7 or 8. */
@@ -28,23 +27,17 @@ export function decompress(
   key: string,
   chunk: Uint8Array,
   count: number,
-  layout: ChunkLayout,
-  perf: LazPerf,
+  decoder: LazDecoder,
   colors?: Uint16Array,
 ): Int32Array {
-  const { says } = chunkParts(chunk, count, layout);
-  if (says !== undefined) throw broken(name, `node ${key} ${says}`);
   const integers = new Int32Array(3 * count);
   let at = 0;
-  try {
-    decodeChunk(perf, chunk, count, layout, (point, from) => {
-      for (let axis = 0; axis < 3; axis++, at++) {
-        integers[at] = point.getInt32(from + 4 * axis, true);
-        if (colors) colors[at] = point.getUint16(from + COLORS_AT + 2 * axis, true);
-      }
-    });
-  } catch (cause) {
-    throw broken(name, `the points of node ${key} cannot be decompressed`, cause);
-  }
+  const says = decoder.decode(chunk, count, (point, from) => {
+    for (let axis = 0; axis < 3; axis++, at++) {
+      integers[at] = point.getInt32(from + 4 * axis, true);
+      if (colors) colors[at] = point.getUint16(from + COLORS_AT + 2 * axis, true);
+    }
+  });
+  if (says !== undefined) throw broken(name, `node ${key} ${says}`);
   return integers;
 }

@@ -1,21 +1,19 @@
-import { describe, HprError } from "../base/errors.js";
 import { type MergeOptions, mergeSettings } from "../cloud/merge.js";
 import { flag, givenOptions, integer, listener, pick } from "../query/options.js";
 import { readViewpoint } from "../query/positions.js";
 import type { ResolvedInversion } from "../query/view-options.js";
 import { readSignal } from "../worker/abort.js";
 import type { Fetch, Network } from "./request.js";
-import type { LazPerf } from "../formats/las/laz-perf.js";
+import { compiler } from "../files/wasm.js";
+import type { CompileFiles } from "../formats/wasm.js";
+import type { InitInput } from "../instance/compile.js";
 
 /** How an octree is read. */
 export interface OctreeOptions {
   /** Fetches addresses, for instance with a token in the headers. Default: the platform's `fetch`. */
   fetch?: Fetch | undefined;
-  /**
-   * The LAZ decoder: what `createLazPerf()` of the package `laz-perf` returns. Pages need it for COPC,
-   * because the address of its wasm is theirs to know. Node finds it by itself.
-   */
-  lazPerf?: LazPerf | Promise<LazPerf> | undefined;
+  /** The wasm that decompresses COPC, if files.wasm of the package cannot be found: its address or its bytes. */
+  wasm?: InitInput | undefined;
   /** Whether the colors of the points are read, too, if the octree has colors. Default false. */
   colors?: boolean | undefined;
   /** The most points that are kept in memory after they were read. Default 4,000,000 (96 MB, with colors 120 MB). */
@@ -60,7 +58,7 @@ export interface OctreeProgress {
 }
 
 export interface OctreeSettings extends Network {
-  lazPerf: Promise<LazPerf> | undefined;
+  wasm: CompileFiles;
   colors: boolean;
   cache: number;
 }
@@ -83,16 +81,12 @@ const MOST_RETRIES = 100;
 const LONGEST_TIMEOUT = 2 ** 31 - 1;
 
 export function octreeSettings(options: unknown): OctreeSettings {
-  const given = givenOptions(options, ["fetch", "lazPerf", "colors", "cache", "retries", "timeout"]);
-  const { lazPerf } = given;
+  const given = givenOptions(options, ["fetch", "wasm", "colors", "cache", "retries", "timeout"]);
   listener(given, "fetch");
-  if (lazPerf !== undefined && (typeof lazPerf !== "object" || lazPerf === null)) {
-    throw new HprError("option", `lazPerf must be what createLazPerf() returns, got ${describe(lazPerf)}`);
-  }
   return {
     // Called without an object: the platform's own fetch refuses any other.
     fetch: (url, init) => ((given["fetch"] ?? fetch) as Fetch)(url, init),
-    lazPerf: lazPerf === undefined ? undefined : Promise.resolve(lazPerf as LazPerf | Promise<LazPerf>),
+    wasm: compiler(given["wasm"]),
     colors: flag(given, "colors"),
     cache: integer(given, "cache", 0, MOST_POINTS) ?? MANY,
     retries: integer(given, "retries", 0, MOST_RETRIES) ?? 3,

@@ -3,13 +3,13 @@ import { extname } from "node:path";
 import type { ChosenColumns } from "../../formats/axes.js";
 import type { CloudFile, Reading } from "../../formats/cloud-file.js";
 import { readLas } from "../../formats/las/read-las.js";
-import { readE57 } from "../../formats/e57/read-e57.js";
+import { readE57 } from "../../formats/e57.js";
 import { readPcd } from "../../formats/read-pcd.js";
 import { readPly } from "../../formats/read-ply.js";
 import { readPtx } from "../../formats/read-ptx.js";
 import { readTable } from "../../formats/read-table.js";
 import { bytesSource } from "../../formats/source.js";
-import { compileE57 } from "../../files/read-cloud.js";
+import { compileFiles } from "../../files/wasm.js";
 import { CONVERTED } from "./convert.js";
 import { lasFrame } from "./las.js";
 import { pcdFrame } from "./pcd.js";
@@ -71,7 +71,7 @@ export async function readPoints(
   file: Buffer<ArrayBuffer>,
   { chosen, damaged }: Pick<Reading, "chosen" | "damaged">,
 ): Promise<PointFile> {
-  const cloud = await read({ name: "", source: bytesSource(file), records: true, chosen, damaged, e57: compileE57 });
+  const cloud = await read({ name: "", source: bytesSource(file), records: true, chosen, damaged, wasm: compileFiles });
   const records = { ...cloud.records, bytes: cloud.records.bytes ?? file };
   return { ...cloud, ...frame?.(file, { ...cloud, records }, chosen), records };
 }

@@ -1,4 +1,4 @@
-// LAS, LAZ and COPC. All are written as LAS: laz-perf does not compress.
+// LAS, LAZ and COPC. All are written as LAS.
 import type { CloudFile } from "../../formats/cloud-file.js";
 import {
   LAS_RECORD_HEADER,

@@ -1,10 +1,9 @@
-// Which bytes of a LAZ file are which of its points.
+// Which bytes of a LAZ file are which of its points, and their decoder.
 import type { Contradictions } from "../contradictions.js";
 import { FormatProblem } from "../problem.js";
 import { type Source, viewOf } from "../source.js";
-import { decodeDifferences } from "./arithmetic.js";
+import { FilesWasm } from "../wasm.js";
 import type { LasHeader } from "./header.js";
-import type { ChunkLayout } from "./laz-perf.js";
 
 /** A part of the file that can be decompressed alone. */
 export interface Chunk {
@@ -13,21 +12,28 @@ export interface Chunk {
   count: number;
 }
 
-/** For each point format that laz-perf decompresses: the types of its parts, in the record of LAZ, and its layers. */
-const FORMATS: Partial<Record<number, { items: readonly number[]; bytes: number; layers?: number }>> = {
-  0: { items: [6], bytes: 20 },
-  1: { items: [6, 7], bytes: 28 },
-  2: { items: [6, 8], bytes: 26 },
-  3: { items: [6, 7, 8], bytes: 34 },
-  6: { items: [10], bytes: 30, layers: 9 },
-  7: { items: [10, 11], bytes: 36, layers: 10 },
-  8: { items: [10, 12], bytes: 38, layers: 11 },
-};
+/** How the points of a chunk are stored. */
+export interface ChunkLayout {
+  format: number;
+  /** The number of bytes of a point. */
+  rowBytes: number;
+}
+
+/** For each point format: the types of its parts, in the record of LAZ. */
+const ITEMS: readonly (readonly number[])[] = [
+  [6], [6, 7], [6, 8], [6, 7, 8], [6, 7, 9], [6, 7, 8, 9], [10], [10, 11], [10, 12], [10, 13], [10, 12, 13],
+]; // prettier-ignore
 /** The types of bytes that a file adds to each point, in points and in layers. */
 const EXTRA_ITEMS = [0, 14];
-/** The number of points of a chunk, if the table gives a number for each. */
-const VARIABLE = 2 ** 32 - 1;
+/** In this way of compression, the first of all, all points are one chunk. */
+const ONE_CHUNK = 1;
+/** Formats from this one on are compressed in layers, which say how many points they hold. */
+const FIRST_LAYERED = 6;
+/** The number of points of a chunk, if the table gives a number for each. Some writers give 0. */
+const VARIABLE = [0, 2 ** 32 - 1];
 const MOST_CHUNKS = 2 ** 26;
+/** Points that are all the same take less than one byte each. More of them than this in one byte are a lie. */
+const MOST_IN_A_BYTE = 4096;
 
 export function lazDamaged(cause?: unknown): FormatProblem {
   return new FormatProblem("its compressed points cannot be decompressed", { cause });
@@ -37,67 +43,129 @@ export function lasEndsEarly(count: number): FormatProblem {
   return new FormatProblem(`it ends before the ${count.toLocaleString("en-US")} points that its header promises`);
 }
 
-/** Refuses compressed points that laz-perf does not support. */
-export function checkLazFormat(format: number): NonNullable<(typeof FORMATS)[number]> {
-  const known = FORMATS[format];
-  if (!known) throw new FormatProblem(`its compressed points have format ${format}, which laz-perf cannot decompress`);
-  return known;
+/** The decoder of one file. */
+export class LazDecoder {
+  readonly #module: WebAssembly.Module;
+  readonly #layout: ChunkLayout;
+  readonly #version: number;
+  #wasm!: FilesWasm;
+
+  /** @param version that of the parts of a point, in the record of LAZ */
+  constructor(module: WebAssembly.Module, layout: ChunkLayout, version = layout.format < FIRST_LAYERED ? 2 : 3) {
+    [this.#module, this.#layout, this.#version] = [module, layout, version];
+    this.#start();
+  }
+
+  #start(): void {
+    const { format, rowBytes } = this.#layout;
+    this.#wasm = new FilesWasm(this.#module);
+    this.#wasm.answer(this.#wasm.functions.begin_laz(format, rowBytes, this.#version));
+  }
+
+  /**
+   * Decompresses a chunk. `take` gets a view with the bytes of each point at a place. Returns in words how the chunk
+   * contradicts itself. Points before a damaged place are taken.
+   */
+  decode(chunk: Uint8Array, count: number, take: (view: DataView, at: number) => void): string | undefined {
+    const { rowBytes } = this.#layout;
+    let says: string | undefined;
+    try {
+      this.#wasm.put(chunk);
+      const points = this.#wasm.answer(this.#wasm.functions.begin_chunk(count)) >>> 0;
+      if (points > MOST_IN_A_BYTE * chunk.length) return `promises ${points} points in ${chunk.length} bytes`;
+      if (points !== count) says = `is listed with ${count} points, but holds ${points}`;
+      for (;;) {
+        const rows = this.#wasm.answer(this.#wasm.functions.next_points());
+        if (rows === 0) return says;
+        const view = viewOf(this.#wasm.bytes(this.#wasm.functions.bytes_at(), rows * rowBytes));
+        for (let row = 0; row < rows; row++) take(view, row * rowBytes);
+      }
+    } catch (cause) {
+      if (cause instanceof FormatProblem) return cause.message;
+      if (!(cause instanceof WebAssembly.RuntimeError)) throw cause;
+      // After a trap the instance is given up.
+      this.#start();
+      return "cannot be decompressed";
+    }
+  }
+
+  /** The table of chunks: their lengths, and their numbers of points if it has them. Undefined if it is damaged. */
+  table(packed: Uint8Array, hasPoints: boolean): { counts: number[]; lengths: number[] } | undefined {
+    this.#wasm.put(packed);
+    const chunks = this.#wasm.functions.chunk_table(hasPoints);
+    if (chunks < 0) return undefined;
+    const numbers = Array.from(this.#wasm.numbers(2 * chunks));
+    return { counts: numbers.filter((_, i) => i % 2 === 0), lengths: numbers.filter((_, i) => i % 2 === 1) };
+  }
 }
 
-/** The number of points in each chunk, as the record of LAZ says it. Refuses points that are not as the header says. */
-function chunkSize({ format, rowBytes, records }: LasHeader, head: DataView): number {
-  const known = checkLazFormat(format);
+/** What the record of LAZ says. Refuses points that are not as the header says. */
+function recordOf({ format, rowBytes, records }: LasHeader, head: DataView) {
   const record = records.find(({ user, id }) => user === "laszip encoded" && id === 22_204);
   if (!record || record.length < 34) throw new FormatProblem("it does not say how its points are compressed");
   const { at, length } = record;
   const compressor = head.getUint16(at, true);
-  const count = head.getUint16(at + 32, true);
-  const items = Array.from({ length: Math.min(count, Math.floor((length - 34) / 6)) }, (_, i) =>
-    [0, 2].map((byte) => head.getUint16(at + 34 + 6 * i + byte, true)),
-  );
-  const types = items.map(([type]) => type!).filter((type) => !EXTRA_ITEMS.includes(type));
-  const bytes = items.reduce((sum, [, size]) => sum + size!, 0);
-  if (compressor !== (known.layers ? 3 : 2)) {
+  const count = Math.min(head.getUint16(at + 32, true), Math.floor((length - 34) / 6));
+  const items = Array.from({ length: count }, (_, i) => {
+    const [type, size, version] = [0, 2, 4].map((byte) => head.getUint16(at + 34 + 6 * i + byte, true));
+    return { type: type!, size: size!, version: version! };
+  });
+  const types = items.map(({ type }) => type).filter((type) => !EXTRA_ITEMS.includes(type));
+  const bytes = items.reduce((sum, { size }) => sum + size, 0);
+  const version = items[0]?.version ?? 0;
+  const isLayered = format >= FIRST_LAYERED;
+  if (isLayered ? compressor !== 3 : compressor !== 2 && compressor !== ONE_CHUNK) {
     throw new FormatProblem(
       `its points are compressed in a way (${compressor}) that its format ${format} does not have`,
     );
   }
-  if (types.join() !== known.items.join() || bytes !== rowBytes || rowBytes < known.bytes) {
+  if (types.join() !== ITEMS[format]!.join() || bytes !== rowBytes) {
     throw new FormatProblem("its header and its record of LAZ describe different points");
   }
-  return head.getUint32(at + 12, true);
+  const other = items.find((item) => item.version !== version || (isLayered ? item.version !== 3 : item.version > 2));
+  if (other) {
+    const way = "write it with the usual version of LASzip (3 for formats from 6 on, else 2)";
+    throw new FormatProblem(
+      `its points are compressed as LAZ item version ${other.version}, which is not read; ${way}`,
+    );
+  }
+  return { version, isOne: compressor === ONE_CHUNK, size: head.getUint32(at + 12, true) };
 }
 
 /**
- * The chunks of a file, by the table at its end. They must fill the place before it, and hold all points. The chunks of a
- * damaged file without a usable table are looked for one after another.
+ * The decoder of a file, and its chunks by the table at its end. They must fill the place before it, and hold all points.
+ * The chunks of a damaged file without a usable table are looked for one after another.
  */
-export async function readChunks(
+export async function openLaz(
+  module: WebAssembly.Module,
   header: LasHeader,
   source: Source,
   head: DataView,
   found: Contradictions,
-): Promise<Chunk[]> {
+): Promise<{ decoder: LazDecoder; chunks: Chunk[] }> {
   const { start, count } = header;
-  const size = chunkSize(header, head);
-  const table = await readTable(header, source, size === VARIABLE);
+  const { version, isOne, size } = recordOf(header, head);
+  const decoder = new LazDecoder(module, header, version);
+  if (isOne) return { decoder, chunks: [{ offset: start, length: source.size - start, count }] };
+  const isVariable = VARIABLE.includes(size);
+  const table = await readTable(header, source, isVariable, decoder);
   if ("says" in table) {
     found.add(table.says);
-    return chunksWithoutTable(header, source, size);
+    return { decoder, chunks: await chunksWithoutTable(header, source, isVariable ? count : size) };
   }
   const { lengths, counts } = table;
   const chunks: Chunk[] = [];
   let [offset, points] = [start + 8, 0];
   for (let i = 0; i < lengths.length; i++) {
-    const own = counts?.[i] ?? Math.max(0, Math.min(size, count - points));
+    const own = isVariable ? counts[i]! : Math.max(0, Math.min(size, count - points));
     chunks.push({ offset, length: lengths[i]!, count: own });
     offset += lengths[i]!;
     points += own;
   }
-  if (points !== count || (!counts && chunks.length !== Math.ceil(count / size))) {
+  if (points !== count || (!isVariable && chunks.length !== Math.ceil(count / size))) {
     found.add(`its header promises ${count} points, and the table of its ${chunks.length} chunks others`);
   }
-  return chunks;
+  return { decoder, chunks };
 }
 
 /** The lengths and, if they differ, the numbers of points of all chunks; or how the table contradicts the file. */
@@ -105,7 +173,8 @@ async function readTable(
   { start, count }: LasHeader,
   source: Source,
   isVariable: boolean,
-): Promise<{ lengths: Uint32Array; counts: Uint32Array | undefined } | { says: string }> {
+  decoder: LazDecoder,
+): Promise<NonNullable<ReturnType<LazDecoder["table"]>> | { says: string }> {
   const number = async (place: number) => {
     const part = await source.read(place, place + 8);
     return part.length < 8 ? undefined : viewOf(part);
@@ -120,23 +189,21 @@ async function readTable(
   const says = "the table of its compressed chunks contradicts the places of the chunks";
   // Each chunk holds a point.
   if (top.getUint32(0, true) !== 0 || chunks > Math.min(count, MOST_CHUNKS)) return { says };
-  const packed = await source.read(at + 8, at + 8 + 16 * chunks + 64);
-  const columns = decodeDifferences(packed, chunks, isVariable ? 2 : 1);
-  const lengths = columns?.at(-1);
-  const end = lengths?.reduce((sum, length) => sum + length, start + 8);
-  return end === at ? { lengths: lengths!, counts: isVariable ? columns![0] : undefined } : { says };
+  const table = decoder.table(await source.read(at, at + 8 + 16 * chunks + 64), isVariable);
+  const end = table?.lengths.reduce((sum, length) => sum + length, start + 8);
+  return end === at ? table! : { says };
 }
 
 /** Layered chunks follow one another and say their lengths. Of the older ones, only the beginning of the first is known. */
 async function chunksWithoutTable(header: LasHeader, source: Source, size: number): Promise<Chunk[]> {
   const { format, rowBytes, start, count } = header;
   const chunks: Chunk[] = [];
-  const { layers, bytes } = FORMATS[format]!;
-  if (layers === undefined) {
+  if (format < FIRST_LAYERED) {
     const offset = start + 8;
     return [{ offset, length: source.size - offset, count: Math.min(size, count) }];
   }
-  const own = layers + rowBytes - bytes;
+  // Each extra byte of a point has its own layer.
+  const own = [9, 10, 11, 10, 12][format - FIRST_LAYERED]! + rowBytes - [30, 36, 38, 59, 67][format - FIRST_LAYERED]!;
   for (let at = start + 8, left = count; left > 0;) {
     const top = await source.read(at, at + rowBytes + 4 + 4 * own);
     if (top.length < rowBytes + 4 + 4 * own) break;
@@ -150,41 +217,4 @@ async function chunksWithoutTable(header: LasHeader, source: Source, size: numbe
     left -= points;
   }
   return chunks;
-}
-
-/** The inside of a chunk. */
-export interface ChunkParts {
-  /** The number of its points. */
-  points: number;
-  /** Where its layers begin, and where the last one ends. Chunks of the older formats are one layer. */
-  at: number[];
-  /** In words: how it contradicts itself. */
-  says?: string;
-}
-
-/**
- * Layered chunks hold their first point, the number of their points, the size of each layer, and the layers. These are
- * checked first, since the decoder itself reads on beyond the end.
- */
-export function chunkParts(chunk: Uint8Array, count: number, { format, rowBytes }: ChunkLayout): ChunkParts {
-  const { layers, bytes } = FORMATS[format]!;
-  if (layers === undefined) {
-    const isShort = chunk.length < rowBytes;
-    return { points: isShort ? 0 : count, at: [rowBytes, chunk.length], ...(isShort && { says: tooShort(chunk) }) };
-  }
-  // Each extra byte of a point has its own layer.
-  const own = layers + rowBytes - bytes;
-  const head = rowBytes + 4 + 4 * own;
-  if (chunk.length < head) return { points: 0, at: [], says: tooShort(chunk) };
-  const view = viewOf(chunk);
-  const at = [head];
-  for (let layer = 0; layer < own; layer++) at.push(at[layer]! + view.getUint32(rowBytes + 4 + 4 * layer, true));
-  const end = at.at(-1)!;
-  if (end !== chunk.length) return { points: 0, at, says: `is listed with ${chunk.length} bytes, but holds ${end}` };
-  const points = view.getUint32(rowBytes, true);
-  return { points, at, ...(points !== count && { says: `is listed with ${count} points, but holds ${points}` }) };
-}
-
-function tooShort(chunk: Uint8Array): string {
-  return `has ${chunk.length} bytes, too few for a chunk of points`;
 }

@@ -1,4 +1,4 @@
-import { allocating, CloudBuilder } from "../builder.js";
+import { CloudBuilder, grown } from "../builder.js";
 import type { CloudFile, Reading } from "../cloud-file.js";
 import { Contradictions } from "../contradictions.js";
 import { FormatProblem } from "../problem.js";
@@ -6,9 +6,8 @@ import { eachRow, equalRecords } from "../read-rows.js";
 import { BoxCheck, checkCounts, countStored } from "./check.js";
 import { type LasDetails, readLasDetails } from "./details.js";
 import { lasPosition } from "./header.js";
-import { decodeChunk, forgetLazPerf, sharedLazPerf } from "./laz-perf.js";
-import { chunkParts, lazDamaged, readChunks } from "./laz.js";
-import { checkTail } from "./tail.js";
+import { moduleOf } from "../wasm.js";
+import { lazDamaged, openLaz } from "./laz.js";
 
 /** LAS, LAZ and COPC, in the order of the file. */
 export async function readLas(reading: Reading): Promise<CloudFile> {
@@ -30,58 +29,28 @@ export async function readLas(reading: Reading): Promise<CloudFile> {
 async function readLaz(header: LasDetails, reading: Reading, found: Contradictions): Promise<CloudFile> {
   const { source, onProgress, signal } = reading;
   const { rowBytes, count } = header;
-  const chunks = await readChunks(header, source, header.head, found);
-  const perf = await (reading.lazPerf ?? sharedLazPerf)();
+  const { decoder, chunks } = await openLaz(await moduleOf(reading), header, source, header.head, found);
   const taker = new RecordTaker(header, reading, found, count);
-  const kept: Uint8Array[] = [];
+  let rows = new Uint8Array();
   let taken = 0;
   for (const [i, chunk] of chunks.entries()) {
     signal?.throwIfAborted();
     onProgress?.(taken / Math.max(1, count));
     const bytes = await source.read(chunk.offset, chunk.offset + chunk.length);
-    const parts = chunkParts(bytes, chunk.count, header);
-    if (parts.says !== undefined) found.add(`chunk ${i + 1} of its points ${parts.says}`);
-    const isLast = i === chunks.length - 1;
-    const points = guarded(() => (isLast ? checkTail(perf, bytes, parts, header, found) : parts.points));
-    const rows = reading.records ? new Uint8Array(points * rowBytes) : undefined;
-    let row = 0;
-    const take = (view: DataView, place: number) => {
-      rows?.set(new Uint8Array(view.buffer, view.byteOffset + place, rowBytes), row * rowBytes);
-      row++;
+    const says = decoder.decode(bytes, chunk.count, (view, place) => {
+      if (reading.records) {
+        const at = taken * rowBytes;
+        if (at + rowBytes > rows.length) rows = grown(rows, Math.max(2 * rows.length, chunk.count * rowBytes, 1 << 16));
+        rows.set(new Uint8Array(view.buffer, view.byteOffset + place, rowBytes), at);
+      }
       taker.take(view, place);
-    };
-    guarded(() => {
-      decodeChunk(perf, bytes, points, header, take);
+      taken++;
     });
-    if (rows) kept.push(rows);
-    taken += row;
+    if (says !== undefined) found.add(`chunk ${i + 1} of its points ${says}`);
   }
   if (taken === 0) throw lazDamaged();
   const cloud = taker.finish(taken === count);
-  return reading.records
-    ? { ...cloud, records: equalRecords(concatenated(kept, taken * rowBytes), 0, rowBytes) }
-    : cloud;
-}
-
-function concatenated(parts: readonly Uint8Array[], length: number): Uint8Array {
-  const all = allocating(length, () => new Uint8Array(length));
-  let at = 0;
-  for (const part of parts) {
-    all.set(part, at);
-    at += part.length;
-  }
-  return all;
-}
-
-/** The decoder throws numbers, traps and aborts. Each of these means that the file is damaged. */
-function guarded<T>(decode: () => T): T {
-  try {
-    return decode();
-  } catch (cause) {
-    if (cause instanceof FormatProblem) throw cause;
-    forgetLazPerf();
-    throw lazDamaged(cause);
-  }
+  return reading.records ? { ...cloud, records: equalRecords(rows, 0, rowBytes) } : cloud;
 }
 
 /** Takes the points of a LAS file, one record after another. */

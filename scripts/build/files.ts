@@ -7,32 +7,33 @@ import { WASM_TARGET } from "../setup/rust.js";
 import { optimize } from "./optimize.js";
 import { wasmFlags } from "./wasm.js";
 
-const FAILED = "The reader of E57 files could not be built";
+const FAILED = "The reader of E57 and LAZ could not be built";
 
 /** In src/ts and in dist. It has no glue: its functions take and return numbers. */
-export const E57 = "formats/e57/e57.wasm";
+export const FILES = "formats/files.wasm";
 
-/** Compiles the reader of E57 files to a module of its own, beside the code that uses it. */
-export async function buildE57(): Promise<void> {
+/** Compiles the reader of E57 and LAZ to a module of its own, beside the code that uses it. */
+export async function buildFiles(): Promise<void> {
   const work = {
-    name: "e57",
+    name: "files",
     inputs: [
+      "Cargo.toml",
       "Cargo.lock",
-      "src/e57",
-      ...["e57", "optimize", "panics", "wasm"].map((step) => `scripts/build/${step}.ts`),
+      "src/files",
+      ...["files", "optimize", "panics", "wasm"].map((step) => `scripts/build/${step}.ts`),
       "package-lock.json",
     ],
-    outputs: [`src/ts/${E57}`],
+    outputs: [`src/ts/${FILES}`],
   };
   const result = await unlessUnchanged(work, async () => {
-    say("Building the reader of E57 files…");
-    const folder = inRoot("target", "e57");
+    say("Building the reader of E57 and LAZ…");
+    const folder = inRoot("target", "files");
     const args = [
       "build",
       "--locked",
       "--release",
       "--package",
-      "hpr-e57",
+      "hpr-files",
       "--target",
       WASM_TARGET,
       "--target-dir",
@@ -40,9 +41,9 @@ export async function buildE57(): Promise<void> {
     ];
     const env = { CARGO_PROFILE_RELEASE_OPT_LEVEL: "z", RUSTFLAGS: await wasmFlags() };
     await mustRun("cargo", args, FAILED, { env });
-    const built = `${folder}/${WASM_TARGET}/release/hpr_e57.wasm`;
-    copyFileSync(built, inRoot("src/ts", E57));
-    await optimize(inRoot("src/ts", E57), FAILED);
+    const built = `${folder}/${WASM_TARGET}/release/hpr_files.wasm`;
+    copyFileSync(built, inRoot("src/ts", FILES));
+    await optimize(inRoot("src/ts", FILES), FAILED);
   });
-  say(`Reader of E57 files: ${result}`);
+  say(`Reader of E57 and LAZ: ${result}`);
 }

@@ -1,9 +1,9 @@
-//! E57 files for `readCloud`, over the crate `e57`. JavaScript supplies parts of the file as they are needed, so a file
-//! may be larger than the memory. Each file has an instance of this module for itself.
+//! E57 and LAZ files for `readCloud`, over the crates `e57` and `laz`. JavaScript supplies parts of the file as they are
+//! needed, so a file may be larger than the memory. Each file has an instance of this module for itself.
 
 mod columns;
+mod laz;
 mod parts;
-mod pose;
 mod scan;
 
 use std::cell::RefCell;
@@ -11,6 +11,7 @@ use std::cell::RefCell;
 use e57::E57Reader;
 
 use columns::columns_of;
+use laz::{Chunk, Laz};
 use parts::Parts;
 use scan::{Scan, facts_of};
 
@@ -23,6 +24,10 @@ struct Reading {
     parts: Parts,
     is_open: bool,
     scan: Option<Scan>,
+    laz: Option<Laz>,
+    chunk: Option<Chunk>,
+    /// Compressed bytes of JavaScript, or points of LAZ for it.
+    bytes: Vec<u8>,
     /// Numbers for JavaScript: those that describe each scan, or those of rows.
     numbers: Vec<f64>,
     /// The description of the file, or why it is refused.
@@ -115,7 +120,72 @@ pub extern "C" fn next_rows() -> i32 {
     })
 }
 
-/// Runs a step. If it has come to nothing because a part is missing, it can be tried again with this part.
+/// Where to write bytes of LAZ. After `next_points`, the points are there.
+#[unsafe(no_mangle)]
+pub extern "C" fn room(length: usize) -> *mut u8 {
+    READING.with_borrow_mut(|reading| {
+        reading.bytes.clear();
+        reading.bytes.resize(length, 0);
+        reading.bytes.as_mut_ptr()
+    })
+}
+
+#[unsafe(no_mangle)]
+pub extern "C" fn bytes_at() -> *const u8 {
+    READING.with_borrow(|reading| reading.bytes.as_ptr())
+}
+
+/// Says how the points of a LAZ file are compressed.
+#[unsafe(no_mangle)]
+pub extern "C" fn begin_laz(format: usize, row: usize, version: u32) -> i32 {
+    told(|reading| {
+        reading.laz = Some(Laz::new(format, row, version)?);
+        Ok(0)
+    })
+}
+
+/// Reads the table of chunks from the bytes in `room`: for each chunk, the numbers are its points and its bytes.
+#[unsafe(no_mangle)]
+pub extern "C" fn chunk_table(has_points: bool) -> i32 {
+    told(|reading| {
+        reading.numbers = laz::table(&reading.bytes, has_points)?;
+        Ok(reading.numbers.len() / 2)
+    })
+}
+
+/// Begins with the chunk in `room`. Returns how many points it holds.
+#[unsafe(no_mangle)]
+pub extern "C" fn begin_chunk(points: usize) -> i32 {
+    told(|reading| {
+        let laz = reading.laz.as_ref().ok_or("no LAZ file was begun")?;
+        let chunk = laz.chunk(std::mem::take(&mut reading.bytes), points)?;
+        let points = chunk.points;
+        reading.chunk = Some(chunk);
+        Ok(points)
+    })
+}
+
+/// Decompresses the next points of the chunk. Returns how many there are; 0 after the last one.
+#[unsafe(no_mangle)]
+pub extern "C" fn next_points() -> i32 {
+    told(|reading| {
+        let chunk = reading.chunk.as_mut().ok_or("no chunk was begun")?;
+        chunk.read(&mut reading.bytes)
+    })
+}
+
+/// Runs a step that has all bytes that it needs.
+fn told(step: impl FnOnce(&mut Reading) -> Result<usize, String>) -> i32 {
+    READING.with_borrow_mut(|reading| match step(reading) {
+        Ok(count) => count as i32,
+        Err(says) => {
+            reading.text = says;
+            REFUSED
+        }
+    })
+}
+
+/// Runs a step of E57. If it has come to nothing because a part is missing, it can be tried again with this part.
 fn answered(step: impl FnOnce(&mut Reading) -> Result<usize, String>) -> i32 {
     READING.with_borrow_mut(|reading| {
         reading.parts.forget_missing();
