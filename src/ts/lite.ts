@@ -170,7 +170,7 @@ export class PointCloud {
     this.#cloud.requireOpen();
     const given = givenOptions(options, VIEW_OPTIONS);
     const [x, y, z] = readViewpoint(viewpoint, this.#cloud.dimension) as [number, number, number];
-    refuseSearch("radius", given["radius"]);
+    refuseOpposite("radius", given["radius"]);
     const settings = { ...NO_OPTIONS, ...chosenRadius(given), ...chosenInversion(given["inversion"]) };
     const { instance, handle } = this.#cloud.requireOpen();
     const answer = instance.call((bindings) => bindings.visibleFrom(handle, x, y, z, coreOptions(settings)));
@@ -190,7 +190,7 @@ export class PointCloud {
   autoRadius(viewpoint: Viewpoint, rule?: "auto"): ChosenRadius {
     this.#cloud.requireOpen();
     const [x, y, z] = readViewpoint(viewpoint, this.#cloud.dimension) as [number, number, number];
-    refuseSearch("the rule", rule);
+    refuseOpposite("the rule", rule);
     // Refuses what is no rule at all.
     const settings = ruleSettings(rule);
     const { instance, handle } = this.#cloud.requireOpen();
@@ -250,13 +250,12 @@ export function hiddenPointRemoval(
 }
 
 function coreOptions(settings: ViewSettings): CoreOptions {
-  const memory = (length: number) => new Uint32Array(length);
-  return { ...coreNumbers(settings), memory };
+  return { ...coreNumbers(settings), memory: (length) => new Uint32Array(length) };
 }
 
-/** Refuses the rules that ask for more than one hull. */
-function refuseSearch(name: string, rule: unknown): void {
-  if (rule === "search" || rule === "opposite") {
+/** Refuses the rule that asks for more than one hull. */
+function refuseOpposite(name: string, rule: unknown): void {
+  if (rule === "opposite") {
     throw new HprError("option", `${name} ${describe(rule)} needs the entry hidden-point-removal`);
   }
 }

@@ -16,33 +16,22 @@ extern "C" {
     fn numbers(this: &ViewOptions) -> Float64Array;
     #[wasm_bindgen(method, getter)]
     pub(super) fn mask(this: &ViewOptions) -> Option<Uint8Array>;
-    /// JavaScript makes the arrays of an answer. It can reuse memory, and a refused allocation
-    /// there is an error rather than a trap.
+    /// JavaScript makes the arrays of an answer: a refused allocation there is an error rather than a trap.
     #[wasm_bindgen(method, catch)]
     pub(super) fn memory(this: &ViewOptions, length: u32) -> Result<Uint32Array, JsValue>;
 }
 
 impl ViewOptions {
     pub(super) fn read(&self) -> Options {
-        let mut numbers = [0.0; 17];
+        let mut numbers = [0.0; 13];
         self.numbers().copy_to(&mut numbers);
         let [rule, size, kernel, parameter, others @ ..] = numbers;
-        let [
-            denoise,
-            vote,
-            scores,
-            thickness,
-            draft,
-            sample,
-            distance,
-            bounds @ ..,
-        ] = others;
+        let [scores, thickness, distance, bounds @ ..] = others;
         let operator = Options {
             radius: match rule as u32 {
-                1 => Radius::Search,
-                2 => Radius::Opposite,
-                3 => Radius::Absolute(size),
-                4 => Radius::Exponent(size),
+                1 => Radius::Opposite,
+                2 => Radius::Absolute(size),
+                3 => Radius::Exponent(size),
                 _ => Radius::Auto,
             },
             inversion: match kernel as u32 {
@@ -57,8 +46,6 @@ impl ViewOptions {
         if !FULL {
             return operator;
         }
-        // Conversions saturate. 0 stands for no option; JavaScript refuses a 0 of the caller.
-        let number = |k: f64| (k > 0.0).then_some(k as usize);
         let [a, b, c, d, e, f] = bounds;
         let bounds = [[a, b, c], [d, e, f]];
         let is_bounded = bounds != [[f64::NEG_INFINITY; 3], [f64::INFINITY; 3]];
@@ -67,13 +54,9 @@ impl ViewOptions {
             bounds: Some(bounds).filter(|_| is_bounded),
         };
         Options {
-            denoise: number(denoise),
-            vote: number(vote),
             scores: scores != 0.0,
             // A negative number stands for none.
             thickness: Some(thickness).filter(|thickness| *thickness >= 0.0),
-            draft: draft != 0.0,
-            sample: number(sample),
             within: Some(within).filter(|within| *within != Within::default()),
             ..operator
         }

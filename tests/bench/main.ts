@@ -6,7 +6,6 @@
 import { init } from "hidden-point-removal";
 
 import { CLOUDS, type Cloud } from "./clouds.js";
-import { timeDrafts } from "./drafts.js";
 import { timeFrames } from "./frames.js";
 import { describeMachine } from "./machine.js";
 import { timeMaps } from "./maps.js";
@@ -14,7 +13,6 @@ import { readOctrees } from "./octrees.js";
 import { type BenchOptions, readOptions, type Section, USAGE } from "./options.js";
 import { peers } from "./peers.js";
 import { markdown, type Table } from "./report.js";
-import { timeSectors } from "./sectors.js";
 import { timeQueries } from "./speed.js";
 import { timeWorkers } from "./workers.js";
 
@@ -25,10 +23,8 @@ await init();
 const others = options.sections.has("speed") ? peers(options.peers) : [];
 const sections: Record<Section, () => Table[] | Promise<Table[]>> = {
   speed: () => timeQueries(chosenClouds(), others),
-  drafts: () => [timeDrafts()],
   maps: async () => [timeMaps(), await timeFrames()],
   workers: async () => [await timeWorkers()],
-  sectors: () => [timeSectors()],
   octrees: async () => [await readOctrees()],
 };
 const tables: Table[] = [];

@@ -5,12 +5,10 @@ import { CLOUDS } from "./clouds.js";
 
 export const USAGE = `npm run bench -- [WHAT…] [--clouds NAME,NAME…] [--peers] [--json]
 
-WHAT, by default --speed, --drafts and --workers:
+WHAT, by default --speed and --workers:
   --speed      cold queries, natively and in Node; three.js on the same flipped points
-  --drafts     early answers and samples against cold ones
   --maps       maps of directions against cold queries, along an orbit; in a worker, at 60 frames a second
-  --workers    two workers against one, on a million points
-  --sectors    the sectors of a view, one after another: what several cores would gain
+  --workers    two workers against one, eight views of a million points
   --octrees    the share of an octree that a view reads
   --all        all of it, and --peers
 
@@ -19,7 +17,7 @@ WHAT, by default --speed, --drafts and --workers:
   --peers      also SciPy (Qhull), installed into target/ (needs Python 3 with pip)
   --json       prints JSON instead of tables`;
 
-const SECTIONS = ["speed", "drafts", "maps", "workers", "sectors", "octrees"] as const;
+const SECTIONS = ["speed", "maps", "workers", "octrees"] as const;
 export type Section = (typeof SECTIONS)[number];
 
 export interface BenchOptions {
@@ -39,7 +37,7 @@ export function readOptions(args: string[]): BenchOptions {
   const clouds = values.clouds?.split(",") ?? Object.keys(CLOUDS);
   const unknown = clouds.find((name) => !(name in CLOUDS));
   if (unknown !== undefined) throw new Error(`There is no cloud named ${unknown}.`);
-  const usual: Section[] = values.clouds === undefined ? ["speed", "drafts", "workers"] : ["speed"];
+  const usual: Section[] = values.clouds === undefined ? ["speed", "workers"] : ["speed"];
   return {
     sections: new Set(asked.length === 0 ? usual : asked),
     clouds,

@@ -2,7 +2,7 @@
 import { PointCloud } from "hidden-point-removal";
 
 import { bounds } from "../bench/views.js";
-import { AUTOMATIC, type Method, PAPERS_RULE, SEARCH } from "./methods.js";
+import { AUTOMATIC, type Method, PAPERS_RULE } from "./methods.js";
 import { type Errors, errorsOf } from "./score.js";
 import type { Labelled } from "./truth.js";
 
@@ -42,7 +42,7 @@ export function curves({ name, positions, views }: Labelled, exponents = EXPONEN
         points: cloud.length,
         views: 1,
         errors: exponents.map(at),
-        rules: [AUTOMATIC, SEARCH, PAPERS_RULE].map(by),
+        rules: [AUTOMATIC, PAPERS_RULE].map(by),
       };
     });
   } finally {

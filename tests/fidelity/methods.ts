@@ -34,14 +34,12 @@ const Z_BUFFER: Method = {
 const exponential: VisibilityOptions = { inversion: { exponential: "auto" } };
 
 export const AUTOMATIC = one("automatic", {});
-export const SEARCH = one("antipodal search", { radius: "search" });
 const LOOKS: Method = { ...one("three looks", { looks: 3 }), hulls: 3 };
 const TWO_LOOKS: Method = { ...one("two looks", { looks: 2 }), hulls: 2 };
 export const PAPERS_RULE = one("the paper's rule", { radius: "opposite" });
 
 export const METHODS: Method[] = [
   AUTOMATIC,
-  SEARCH,
   PAPERS_RULE,
   one("exp(c/d), automatic c", exponential),
   TWO_LOOKS,

@@ -23,7 +23,6 @@ const METHODS: Record<string, Ask> = {
   automatic: by({}),
   "looks: 3": by({ looks: 3 }),
   "thickness: 0": by(NO_THICKNESS),
-  "and denoise: 32, vote: 16": by({ ...NO_THICKNESS, denoise: 32, vote: 16 }),
   "z-buffer 4 px, .15 m": inMeters(({ positions }, at) => buffered(positions, at, 4 * PIXEL, 0.15)),
   "z-buffer 8 px, .05 m": inMeters(({ positions }, at) => buffered(positions, at, 8 * PIXEL, 0.05)),
   "range buffer 1°, .3 m": inMeters(({ positions }, at) => buffered(positions, at, DEGREE, 0.3)),

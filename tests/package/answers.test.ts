@@ -48,18 +48,6 @@ describe("an answer", () => {
     expect(mask).toHaveLength(cloud.length);
     expect([...mask.keys()].filter((i) => mask[i] === 1)).toEqual([...visible.indices]);
     expect(mask.every((byte) => byte === 0 || byte === 1)).toBe(true);
-
-    const target = new Uint8Array(2003).fill(9);
-    visible.maskInto(target);
-    expect(target.subarray(0, 2000)).toEqual(mask);
-    expect([...target.subarray(2000)]).toEqual([9, 9, 9]);
-  });
-
-  it("writes its indices where it is told", () => {
-    const target = new Uint32Array(visible.count + 1).fill(77);
-    expect(visible.indicesInto(target)).toBe(visible.count);
-    expect(target.subarray(0, visible.count)).toEqual(visible.indices);
-    expect(target.at(-1)).toBe(77);
   });
 
   it("is the caller's own copy, through other queries, growing memory and disposal", () => {

@@ -269,7 +269,9 @@ it("cameras stand wherever several viewpoints stand", async () => {
     expect(ask).toThrow(expect.objectContaining({ code: "viewpoint" }));
     expect(ask).toThrow(/\[5\]'s fx must be a number/);
   }
-  expect(() => cloud.visibleFromAny(ring, { draft: true })).toThrow(/draft cannot be combined with several cameras/);
+  expect(() => cloud.visibleFromAny(ring, { looks: 3, scores: true })).toThrow(
+    /scores cannot be combined with several cameras/,
+  );
   cloud.dispose();
 });
 
@@ -296,7 +298,7 @@ it("seenBy lists the cameras of each point, with their pixels", async () => {
   for (const bad of [undefined, {}, [5], [ring[0], null]]) {
     expect(() => cloud.seenBy(bad as never)).toThrow(expect.objectContaining({ code: "viewpoint" }));
   }
-  expect(() => cloud.seenBy(ring, { draft: true })).toThrow(expect.objectContaining({ code: "option" }));
+  expect(() => cloud.seenBy(ring, { looks: 3, scores: true })).toThrow(expect.objectContaining({ code: "option" }));
   const signal = AbortSignal.abort();
   await expect(remote.seenBy(ring, { signal })).rejects.toMatchObject({ name: "AbortError" });
   expect(() => {

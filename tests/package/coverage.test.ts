@@ -12,7 +12,7 @@ const weights = Array.from({ length: count }, () => Math.floor(4 * random()) * 0
 
 it("coverage counts the views", () => {
   const cloud = new PointCloud(positions);
-  for (const options of [{}, { exponent: 3 }, { looks: 2 as const }, { within: { distance: 2 } }, { sample: 500 }]) {
+  for (const options of [{}, { exponent: 3 }, { looks: 2 as const }, { within: { distance: 2 } }]) {
     const expected = new Uint32Array(count);
     for (const place of places) for (const index of cloud.visibleFrom(place, options).indices) expected[index]! += 1;
     const heard: number[] = [];
@@ -56,7 +56,7 @@ it("questions that make no sense are refused", async () => {
     ],
     [() => cloud.coverage(places, { onProgress: () => cloud.append([]) }), "option", /must not change the cloud/],
     [() => cloud.placeViewpoints(places, { onProgress: () => cloud.remove([]) }), "option", /must not change/],
-    [() => cloud.coverage(places, { draft: true }), "option", /draft cannot be combined with coverage/],
+    [() => cloud.coverage(places, { looks: 3, scores: true }), "option", /scores cannot be combined with coverage/],
     [() => cloud.placeViewpoints(places, { looks: 2, scores: true }), "option", /scores cannot be combined/],
     [() => cloud.placeViewpoints(places, { count: 0 }), "option", /count must be an integer from 1/],
     [() => cloud.placeViewpoints(places, { share: 1.5 }), "option", /share must be above 0 and at most 1, got 1.5/],

@@ -17,7 +17,6 @@ describe("a cloud in the plane", () => {
     const from = [0.5, 2];
     for (const options of [
       {},
-      { radius: "search" },
       { radius: "opposite" },
       { inversion: { power: 2 } },
       { inversion: { exponential: "auto" } },
@@ -33,7 +32,7 @@ describe("a cloud in the plane", () => {
     ];
     expect(plane.visibleFromAny(several)).toEqual(space.visibleFromAny(lifts));
     expect(plane.visibleFromAtLeast(2, several)).toEqual(space.visibleFromAtLeast(2, lifts));
-    expect(plane.autoRadius(from, "search")).toEqual(space.autoRadius([...from, 0], "search"));
+    expect(plane.autoRadius(from, "opposite")).toEqual(space.autoRadius([...from, 0], "opposite"));
     expect(hiddenPointRemoval(flat, from, { dimension: 2 })).toEqual(plane.visibleFrom(from));
   });
 });
@@ -62,8 +61,6 @@ describe("refusals", () => {
           [0, 0, 0, 2],
         ]),
     ],
-    ["option", /denoise.*dimension 3, not 2/, () => plane.visibleFrom([0, 5], { denoise: 1 })],
-    ["option", /vote.*dimension 3, not 4/, () => hyper.visibleFrom([0, 0, 0, 5], { vote: 1 })],
     ["option", /reconstruct.*dimension 3, not 2/, () => plane.reconstruct([0, 5])],
     ["option", /illuminate.*dimension 3, not 4/, () => hyper.illuminate([])],
     ["option", /visibleFromDirection.*dimension 3, not 2/, () => plane.visibleFromDirection([0, 1])],

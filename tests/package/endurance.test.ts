@@ -37,7 +37,7 @@ describe("memory stays flat", () => {
       if (i % 10 === 0) {
         cloud.reconstruct(farAway);
         cloud.illuminate([farAway]);
-        cloud.visibleFromDirection([0, 0, -1], { denoise: 8 });
+        cloud.visibleFromDirection([0, 0, -1], { looks: 2 });
         expect(() => cloud.visibleFrom(farAway, { radius: 1e-9 })).toThrow();
         new hpr.PointCloud(points.subarray(0, 400), { dimension: 4 }).dispose();
       }

@@ -101,7 +101,7 @@ const refusals: Refusal[] = [
   ["option", /inversion exponential.*\b0$/, view(farAway, { inversion: { exponential: 0 } })],
   ["option", /inversion exponential.*infinity/, view(farAway, { inversion: { exponential: Infinity } })],
   ["option", /exponent.*inversion power/, view(farAway, { exponent: 2, inversion: { power: 2 } })],
-  ["option", /radius.*"search".*inversion power/, view(farAway, { radius: "search", inversion: { power: 2 } })],
+  ["option", /radius.*"opposite".*inversion power/, view(farAway, { radius: "opposite", inversion: { power: 2 } })],
   [
     "option",
     /radius.*"opposite".*exponential/,
@@ -110,14 +110,6 @@ const refusals: Refusal[] = [
   ["option", /exponent.*inversion exponential/, view(farAway, { exponent: 2, inversion: { exponential: 1 } })],
   ["option", /radius.*inversion exponential/, view(farAway, { radius: 100, inversion: { exponential: 1 } })],
   ["radius", /farthest/, view(farAway, { radius: 1, inversion: { power: 2 } })],
-  ["option", /denoise.*\b0$/, view(farAway, { denoise: 0 })],
-  ["option", /denoise.*1\.5/, view(farAway, { denoise: 1.5 })],
-  ["option", /denoise.*"8"/, view(farAway, { denoise: "8" })],
-  ["option", /denoise.*499.*500/, view(farAway, { denoise: 500 })],
-  ["option", /denoise.*4294967297/, view(farAway, { denoise: 2 ** 32 + 1 })],
-  ["option", /vote.*-1/, view(farAway, { vote: -1 })],
-  ["option", /vote.*NaN/, view(farAway, { vote: NaN })],
-  ["option", /vote.*499.*500/, view(farAway, { vote: 500 })],
   ["option", /"latest"/, view(farAway, { latest: true })],
   ["option", /rule.*"best"/, autoRadius(farAway, "best")],
   ["option", /rule.*\b7$/, autoRadius(farAway, 7)],
@@ -133,25 +125,13 @@ const refusals: Refusal[] = [
   ["option", /got 7/, remove(7)],
   ["option", /"12"/, remove("12")],
   ["option", /"foo"/, () => hiddenPointRemoval(sphere, farAway, loose({ foo: 1 }))],
-  [
+  // These options are gone.
+  ...["draft", "sample", "denoise", "vote"].map((name): (typeof refusals)[number] => [
     "option",
-    /maskInto.*500.*499/,
-    () => {
-      new PointCloud(sphere).visibleFrom(farAway).maskInto(new Uint8Array(499));
-    },
-  ],
-  [
-    "option",
-    /maskInto.*Uint8Array.*Float32Array/,
-    () => {
-      new PointCloud(sphere).visibleFrom(farAway).maskInto(loose(new Float32Array(500)));
-    },
-  ],
-  [
-    "option",
-    /indicesInto.*length 1/,
-    () => new PointCloud(sphere).visibleFrom(farAway).indicesInto(new Uint32Array(1)),
-  ],
+    new RegExp(`unknown option "${name}"`),
+    view(farAway, { [name]: 5 }),
+  ]),
+  ["option", /radius must be.*"search"/, view(farAway, { radius: "search" })],
 ];
 
 describe("what is refused", () => {
@@ -162,7 +142,7 @@ describe("what is refused", () => {
 
   it("takes an option that is undefined as absent", () => {
     const plain = new PointCloud(sphere).visibleFrom(farAway);
-    const undefinedOptions = { radius: undefined, exponent: undefined, inversion: undefined, denoise: undefined };
+    const undefinedOptions = { radius: undefined, exponent: undefined, inversion: undefined, looks: undefined };
     const cloud = new PointCloud(sphere, loose({ dimension: undefined, stride: undefined, nonFinite: undefined }));
     expect(cloud.visibleFrom(farAway, loose(undefinedOptions)).indices).toEqual(plain.indices);
     expect(cloud.visibleFrom(farAway, loose({ radius: undefined, exponent: 2 })).exponent).toBeCloseTo(2);
@@ -191,9 +171,6 @@ describe("messages of the core", () => {
     ["the farthest distance (infinity) exceeds the range of f64", () => hiddenPointRemoval([1e200, 0, 0], [0, 0, 0])],
     ["exponent must be finite and at least 0, got -100000000000000000000", view(farAway, { exponent: -1e20 })],
     ["exponent must be finite and at least 0, got -1e21", view(farAway, { exponent: -1e21 })],
-    ["denoise must be an integer from 1 to 268435455, got 4294967296", view(farAway, { denoise: 2 ** 32 })],
-    ["vote must be an integer from 1 to 268435455, got 1e+300", view(farAway, { vote: 1e300 })],
-    ["vote must be from 1 to 499, got 268435455", view(farAway, { vote: 2 ** 28 - 1 })],
     ["index 500 is out of range for a cloud of length 500", remove([3, 500])],
   ];
   it.each(worded)("%s", async (message, call) => {

@@ -97,11 +97,6 @@ it.each<AnyOptions>([
   { looks: 3, scores: true },
   { thickness: 1 },
   { within: { distance: 3 } },
-  { sample: 100 },
-  { denoise: 6 },
-  { vote: 6 },
-  { draft: true },
-  { radius: "search" },
   { radius: "opposite" },
   { radius: 10, exponent: 2 },
   { radius: 10, inversion: { exponential: 1 } },
@@ -130,7 +125,7 @@ it("refuses other dimensions and other rules with the code option, and names the
   for (const number of [1, 4, 64, 2.5]) expect(await dimension(number)).toMatchObject({ code: "option" });
   expect((await dimension(4)).message).toBe("dimension must be an integer from 2 to 3, got 4");
   const cloud = new PointCloud(sphere);
-  for (const rule of ["search", "opposite", 3, null]) {
+  for (const rule of ["opposite", 3, null]) {
     const refused = await problemOf(() => cloud.autoRadius(farAway, rule as "auto"));
     expect(refused).toMatchObject({ code: "option" });
     expect(refused).toBeInstanceOf(lite.HprError);

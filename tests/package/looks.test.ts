@@ -182,7 +182,6 @@ describe("an error names the option", () => {
     [/looks.*from 2 to 3.*\b1$/, view({ looks: 1 })],
     [/looks.*from 2 to 3.*\b4$/, view({ looks: 4 })],
     [/looks.*2\.5/, view({ looks: 2.5 })],
-    [/looks.*draft/, view({ looks: 3, draft: true })],
     [/looks.*"3"/, view({ looks: "3" })],
     [/looks.*true/, view({ looks: true })],
     [/looks and radius/, view({ looks: 3, radius: 100 })],

@@ -13,9 +13,9 @@ const farthest = Math.max(
 );
 
 describe("the radius", () => {
-  it("is the same by the three rules where there is nothing to search", () => {
+  it("is the same by both rules where there is nothing to choose", () => {
     const none = new PointCloud([]);
-    for (const rule of ["auto", "search", "opposite"] as const) {
+    for (const rule of ["auto", "opposite"] as const) {
       expect(none.autoRadius(farAway, rule)).toEqual({ radius: 0, exponent: 0, evaluations: 0 });
     }
   });

@@ -99,7 +99,6 @@ describe("refusals", () => {
     ["option", /triangles.*got 4/, light({ triangles: new Uint32Array(4) })],
     ["option", /triangles\[2\].*100\b.*got 100/, light({ triangles: Uint32Array.of(0, 1, 100) })],
     ["option", /"maxEdge"/, light({ maxEdge: 1 })],
-    ["option", /denoise.*99/, light({ denoise: 100 })],
   ];
   it.each(refusals)("%s, naming %s: case %#", expectRefusal);
 
@@ -112,7 +111,7 @@ describe("refusals", () => {
       () => gone.visibleFromAny([]),
       () => gone.visibleFromAtLeast(1, [[0, 0, 5]]),
       () => gone.visibleFromDirection([0, 0, 1]),
-      () => gone.autoRadius([0, 0, 5], "search"),
+      () => gone.autoRadius([0, 0, 5], "opposite"),
     ];
     for (const call of calls) expect((await problemOf(call)).code).toBe("disposed");
   });

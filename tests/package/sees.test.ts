@@ -49,7 +49,7 @@ it("questions that make no sense are refused", async () => {
     [[1, 2], {}, "positions-length", /3 numbers/],
     ["5", {}, "positions-type", /positions/],
     [[0, 0, NaN], {}, "non-finite", /first at index 0/],
-    [[0, 0, 0], { draft: true }, "option", /draft cannot be combined with sees/],
+    [[0, 0, 0], { looks: 3, scores: true }, "option", /scores cannot be combined with sees/],
     [[0, 0, 0], { looks: 2, scores: true }, "option", /scores cannot be combined with sees/],
   ];
   for (const [places, options, code, message] of bad) {

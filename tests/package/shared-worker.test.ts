@@ -64,7 +64,9 @@ it("a view in slices that waits for its turn can be given up", async () => {
   );
   const controls = clouds.map(() => new AbortController());
   const asked = clouds.map((cloud, number) =>
-    cloud.visibleFrom(farAway, { looks: 3, signal: controls[number]!.signal }).catch((error: Error) => error.name),
+    cloud
+      .visibleFrom(farAway, { looks: 3, signal: controls[number]!.signal })
+      .catch((error: unknown) => (error as Error).name),
   );
   await Promise.resolve();
   controls[1]!.abort();

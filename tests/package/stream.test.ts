@@ -231,6 +231,21 @@ describe("a stream", () => {
   });
 });
 
+it.each([1, 2])("a view in slices is given up when its signal aborts, with %i workers", async (workers) => {
+  const one = await cloudOf(many, { workers });
+  for (const options of [{}, { looks: 3 as const }]) {
+    const controller = new AbortController();
+    const given = one.visibleFrom(at(0), { ...options, signal: controller.signal });
+    await Promise.resolve();
+    controller.abort();
+    await expect(given).rejects.toMatchObject({ name: "AbortError" });
+    // The answer that comes next does not depend on what was given up.
+    expect(await one.visibleFrom(at(0), options)).toEqual(local.visibleFrom(at(0), options));
+    const { signal } = new AbortController();
+    expect(await one.visibleFrom(at(1), { ...options, signal })).toEqual(local.visibleFrom(at(1), options));
+  }
+});
+
 it("a view in slices lets other clouds of the shared worker be answered in between", async () => {
   // The worker begins when both questions are there, however slow this thread is.
   const gate = new Int32Array(new SharedArrayBuffer(4));

@@ -133,7 +133,7 @@ it("bad images and options are refused", async () => {
     [good, { merge: "max" }, "option", /merge must be one of/],
     [good, { weights: "none" }, "option", /weights must be one of/],
     [good, { merge: "vote", sampling: "bilinear" }, "option", /cannot be combined/],
-    [good, { draft: true }, "option", /draft cannot be combined/],
+    [good, { looks: 3, scores: true }, "option", /scores cannot be combined/],
     [good, { weights: "score", exponent: 3 }, "option", /scores can be asked for only with looks/],
     [good, { colour: 1 }, "option", /unknown option/],
   ];

@@ -4,7 +4,7 @@ import type { SeenBy } from "../query/seen-by.js";
 import type { TransferOptions, Transferred } from "../query/transfer.js";
 import type { VisibilityOptions } from "../query/view-options.js";
 import { WorkerPointCloud } from "../worker.js";
-import { defaultWorkers, MAX_WORKERS } from "../worker/workers.js";
+import { defaultWorkers } from "../worker/workers.js";
 import type { PointFile } from "./formats/point-file.js";
 import { readImage } from "./images.js";
 import type { NamedCamera, NamedSeat } from "./places.js";
@@ -54,7 +54,7 @@ export async function* ask(
     nonFinite: "skip",
     // The output needs the positions again.
     transfer: question.kind !== "colors",
-    workers: workers ?? (sharesViewpoints(question) ? await defaultWorkers(positions.length / 3, MAX_WORKERS) : 1),
+    workers: workers ?? (sharesViewpoints(question) ? await defaultWorkers(positions.length / 3) : 1),
     onProgress: (share) => {
       onProgress(share / 2, "preparing");
     },

@@ -24,9 +24,9 @@ import type { Placement } from "../query/placement.js";
 import type { ViewpointOrCamera } from "../query/seats.js";
 import type { SeenBy } from "../query/seen-by.js";
 import { surveyQuestion } from "../query/survey-methods.js";
-import { type CoverageOptions, type PlacementOptions, SURVEY, type SurveyQuestion } from "../query/surveys.js";
+import { type CoverageOptions, type PlacementOptions, surveyed, type SurveyQuestion } from "../query/surveys.js";
 import { type RadiusRule, VIEW_OPTIONS, type VisibilityOptions } from "../query/view-options.js";
-import { type CameraView, type Reconstruction, type Visibility, VisibilityAnswer } from "./visibility.js";
+import type { CameraView, Reconstruction, Visibility } from "./visibility.js";
 import type { VisibilityMap } from "./visibility-map.js";
 
 /**
@@ -61,6 +61,7 @@ export class PointCloud {
     const instance = requireInstance();
     const settings = cloudSettings(givenOptions(options, CLOUD_OPTIONS));
     this.#core = new CoreCloud(instance, positions, settings);
+    surveyed.set(this, (question) => this.#survey(question));
   }
 
   /**
@@ -135,7 +136,7 @@ export class PointCloud {
    * @param viewpoint x, y, z in the cloud's units. Needs a cloud of dimension 3.
    * @returns arrays that are the caller's own; `skyViewFactor` and `solidAngle` do not depend on the
    *   size of the image.
-   * @throws HprError `viewpoint` also for `up`, `option` also for `draft` and `scores`, `too-large`;
+   * @throws HprError `viewpoint` also for `up`, `option` also for `scores`, `too-large`;
    *   otherwise as {@link PointCloud.visibleFrom}.
    */
   panorama(viewpoint: Viewpoint, options: PanoramaOptions): Panorama {
@@ -151,7 +152,7 @@ export class PointCloud {
    * By default, a is 0.4·n^¼/g, as the automatic R is 0.4·n^¼·r²/g. With `inversion: { exponential: c }`, a is 1/(2c). For a
    * given `radius` or `exponent`, a is R/d². Here d is the diagonal of the bounding box, and R is
    * measured from the viewpoint that lies at the distance d before the centroid. The answer's `radius`
-   * is R for that viewpoint. `looks` have a limit, too (docs/LOOKS.md). `"search"`, `"opposite"` and `power` have no limit and are refused
+   * is R for that viewpoint. `looks` have a limit, too (docs/LOOKS.md). `"opposite"` and `power` have no limit and are refused
    * (`option`).
    *
    * @param direction x, y, z, not zero, of any length. Needs a cloud of dimension 3.
@@ -207,7 +208,7 @@ export class PointCloud {
    *   `nonFinite` apply. A position outside of `within` is not visible.
    * @returns one byte for each position: 1 visible, 0 hidden. The array is the caller's own copy.
    * @throws HprError `positions-type`, `positions-length`, `non-finite`; `radius` for a position beyond a
-   *   given radius; `option` also for `draft`, `sample` and `scores`; otherwise as
+   *   given radius; `option` also for `scores`; otherwise as
    *   {@link PointCloud.visibleFrom}.
    */
   sees(viewpoint: Viewpoint, positions: Positions, options?: VisibilityOptions): Uint8Array {
@@ -219,21 +220,21 @@ export class PointCloud {
    * viewpoints.
    *
    * @returns one count for each index. The array is the caller's own copy.
-   * @throws HprError `option` also for `draft` and `scores`; otherwise as {@link PointCloud.visibleFrom}.
+   * @throws HprError `option` also for `scores`; otherwise as {@link PointCloud.visibleFrom}.
    */
   coverage(viewpoints: readonly ViewpointOrCamera[], options?: CoverageOptions): Uint32Array {
-    return this[SURVEY](...surveyQuestion("coverage", viewpoints, options));
+    return this.#survey(surveyQuestion("coverage", viewpoints, options));
   }
 
   /**
    * Which of many cameras see each point, and where in their images. A camera sees what `visibleFromCamera`
    * finds.
    *
-   * @throws HprError `option` also for `draft` and `scores`; `too-large`; otherwise as
+   * @throws HprError `option` also for `scores`; `too-large`; otherwise as
    *   {@link PointCloud.visibleFromCamera}.
    */
   seenBy(cameras: readonly Camera[], options?: CoverageOptions): SeenBy {
-    return this[SURVEY](...surveyQuestion("seenBy", cameras, options));
+    return this.#survey(surveyQuestion("seenBy", cameras, options));
   }
 
   /**
@@ -241,10 +242,10 @@ export class PointCloud {
    * the lowest number. The choice ends at `count` viewpoints, when `share` is seen, or when nothing more is
    * gained. With `count`, it sees at least 1 − 1/e of what the best choice of so many sees.
    *
-   * @throws HprError `option` also for `draft` and `scores`; otherwise as {@link PointCloud.visibleFrom}.
+   * @throws HprError `option` also for `scores`; otherwise as {@link PointCloud.visibleFrom}.
    */
   placeViewpoints(candidates: readonly ViewpointOrCamera[], options?: PlacementOptions): Placement {
-    return this[SURVEY](...surveyQuestion("placeViewpoints", candidates, options));
+    return this.#survey(surveyQuestion("placeViewpoints", candidates, options));
   }
 
   /**
@@ -267,11 +268,8 @@ export class PointCloud {
     return step.value;
   }
 
-  /**
-   * Asks all views of a task, one after another.
-   * @hidden
-   */
-  [SURVEY]<Result>(...[method, options, names, read]: SurveyQuestion<Result>): Result {
+  /** Asks all views of a task, one after another. */
+  #survey<Result>([method, options, names, read]: SurveyQuestion<Result>): Result {
     this.#core.requireOpen();
     const given = givenOptions(options, names);
     const progress = listener(given, "onProgress") as CoverageOptions["onProgress"];
@@ -280,7 +278,6 @@ export class PointCloud {
     for (let next = task.next(0); next !== undefined; next = task.next(0)) {
       const found: Found = this.#core.ask(next.view);
       task.take(next.number, found);
-      this.#core.keepMemory(found.indices.buffer);
       if (this.#core.size !== size) {
         throw new HprError("option", `${method}: onProgress must not change the cloud`);
       }
@@ -351,18 +348,6 @@ export class PointCloud {
    */
   remove(indices: ArrayLike<number>): void {
     this.#core.remove(indices);
-  }
-
-  /**
-   * Reuses the memory of an answer's `indices` for later answers. The indices of this answer are gone
-   * then. This is for a viewpoint that moves: no memory is left to the garbage collector. After this,
-   * `indices` of an answer may be the start of a longer buffer. Does nothing if the indices are gone
-   * already.
-   *
-   * @throws HprError `option` for a value that is not an answer of a cloud.
-   */
-  recycle(answer: Visibility): void {
-    this.#core.keepMemory(VisibilityAnswer.takeMemory(answer));
   }
 
   #ask<Name extends MethodName>(name: Name, ...args: readonly unknown[]): ReturnType<PointCloud[Name]> {

@@ -3,7 +3,6 @@ import type { Answers } from "../query/answers.js";
 import type { Query, QueryKind } from "../query/queries.js";
 import { HeldCloud } from "./held-cloud.js";
 import { coreOptions, perform } from "./perform.js";
-import { Spares } from "./spares.js";
 
 /** The number of points in a slice of a view. A slice takes some 5 to 10 ms. */
 const SLICE = 40_000;
@@ -13,17 +12,14 @@ const SLICE = 40_000;
  * thread. `PointCloud` adds the methods that a user calls. A worker needs only this class.
  */
 export class CoreCloud extends HeldCloud<Bindings> {
-  readonly #spares = new Spares();
-
   /** @throws HprError as the methods of `PointCloud`. */
   ask<K extends QueryKind>(query: Query<K>): Answers[K] {
     const { dimension, size } = this;
-    return perform({ ...this.requireOpen(), dimension, length: size.length, spares: this.#spares }, query);
+    return perform({ ...this.requireOpen(), dimension, length: size.length }, query);
   }
 
   /**
-   * Goes on from the draft of a view, if the last question was this draft, or with several looks.
-   * Computes one slice, which takes some milliseconds; after the first hull, a slice is a whole look.
+   * Computes one slice of a view, which takes some milliseconds; after the first hull, a slice is a whole look.
    * Returns whether nothing is left to compute before `ask`.
    *
    * @throws HprError as the methods of `PointCloud`.
@@ -35,17 +31,5 @@ export class CoreCloud extends HeldCloud<Bindings> {
     }
     const [x, y, z] = viewpoint as [number, number, number];
     return instance.call((bindings) => bindings.goOn(handle, x, y, z, coreOptions(settings), SLICE));
-  }
-
-  /** Keeps memory for the indices of later answers. */
-  keepMemory(buffer: ArrayBuffer | undefined): void {
-    if (this.isOpen) {
-      this.#spares.keep(buffer);
-    }
-  }
-
-  override dispose(): void {
-    this.#spares.clear();
-    super.dispose();
   }
 }

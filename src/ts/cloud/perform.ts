@@ -5,7 +5,6 @@ import { allocating } from "../base/memory.js";
 import type { CoreOptions } from "./held-cloud.js";
 import type { Query, QueryKind } from "../query/queries.js";
 import { newCounts, viewFrom } from "../query/surveys.js";
-import { roomIn, type Spares } from "./spares.js";
 import { coreNumbers, resolvedInversion, type ViewSettings } from "../query/view-options.js";
 
 /** A cloud in the memory of an instance. */
@@ -14,25 +13,20 @@ interface Target {
   handle: number;
   dimension: number;
   length: number;
-  /** These may hold memory for the answer's indices. */
-  spares: Spares;
 }
 
 type CoreAnswer = ReturnType<Bindings["visibleFrom"]>;
 
 const performers: { [K in QueryKind]: (target: Target, query: Query<K>) => Answers[K] } = {
-  visibleFrom: (target, { viewpoint, settings, sector }) => {
+  visibleFrom: (target, { viewpoint, settings }) => {
     const { instance, handle, dimension } = target;
     const [x, y, z] = viewpoint as [number, number, number];
-    const options = coreOptions(settings, target.spares);
-    const answer = instance.call((bindings) => {
-      if (dimension > 3) {
-        return bindings.visibleFromSeveral(handle, Float64Array.from(viewpoint), 1, options);
-      }
-      return sector === undefined
-        ? bindings.visibleFrom(handle, x, y, z, options)
-        : bindings.visibleInSector(handle, x, y, z, options, sector.number, sector.count);
-    });
+    const options = coreOptions(settings);
+    const answer = instance.call((bindings) =>
+      dimension > 3
+        ? bindings.visibleFromSeveral(handle, Float64Array.from(viewpoint), 1, options)
+        : bindings.visibleFrom(handle, x, y, z, options),
+    );
     return found(target, settings, answer);
   },
 
@@ -59,14 +53,14 @@ const performers: { [K in QueryKind]: (target: Target, query: Query<K>) => Answe
 
   visibleFromDirection: (target, { direction, settings }) => {
     const [x, y, z] = direction as [number, number, number];
-    const options = coreOptions(settings, target.spares);
+    const options = coreOptions(settings);
     const answer = target.instance.call((bindings) => bindings.visibleFromDirection(target.handle, x, y, z, options));
     return found(target, settings, answer);
   },
 
   visibleFromSeveral: (target, { viewpoints, k, settings }) => {
     const { instance, handle } = target;
-    const options = coreOptions(settings, target.spares);
+    const options = coreOptions(settings);
     const answer = instance.call((bindings) => bindings.visibleFromSeveral(handle, viewpoints, k, options));
     return found(target, settings, answer);
   },
@@ -82,10 +76,10 @@ const performers: { [K in QueryKind]: (target: Target, query: Query<K>) => Answe
     const largest = views.reduce((a, b) => (b.radius > a.radius ? b : a));
     const evaluations = views.reduce((sum, view) => sum + view.evaluations, 0);
     const inverted = views.some((view) => view.inverted);
-    return { ...largest, evaluations, inverted, indices: atLeast(counts, k, target.spares) };
+    return { ...largest, evaluations, inverted, indices: atLeast(counts, k) };
   },
 
-  visibleFromCamera: (target, { camera, settings, sector, towards = false }) => {
+  visibleFromCamera: (target, { camera, settings, towards = false }) => {
     const { instance, handle } = target;
     const place = (indices: Uint32Array) => {
       const shown = allocating(`${6 * indices.length} numbers`, () => new Float32Array(6 * indices.length));
@@ -96,8 +90,7 @@ const performers: { [K in QueryKind]: (target: Target, query: Query<K>) => Answe
     };
     // The camera is checked first.
     const viewpoint = [...instance.call((bindings) => bindings.cameraPlace(camera)).subarray(0, 3)];
-    const view = { kind: "visibleFrom" as const, viewpoint, settings, divisible: false };
-    const seen = perform(target, sector === undefined ? view : { ...view, sector });
+    const seen = perform(target, { kind: "visibleFrom", viewpoint, settings });
     const inverted = instance.call((bindings) => bindings.seemsInverted(handle, camera));
     return { ...seen, ...inImage(seen.indices, place(seen.indices), towards), inverted };
   },
@@ -126,7 +119,7 @@ const performers: { [K in QueryKind]: (target: Target, query: Query<K>) => Answe
 
   reconstruct: (target, { viewpoint, settings, maxEdge }) => {
     const [x, y, z] = viewpoint as [number, number, number];
-    const options = coreOptions(settings, target.spares);
+    const options = coreOptions(settings);
     const answer = target.instance.call((bindings) => bindings.reconstruct(target.handle, x, y, z, options, maxEdge));
     return { ...found(target, settings, answer), triangles: answer.triangles };
   },
@@ -148,9 +141,9 @@ const performers: { [K in QueryKind]: (target: Target, query: Query<K>) => Answe
 };
 
 /** The indices that were counted at least `k` times, ascending. */
-function atLeast(counts: Uint32Array, k: number, spares: Spares): Uint32Array<ArrayBuffer> {
+function atLeast(counts: Uint32Array, k: number): Uint32Array<ArrayBuffer> {
   const number = counts.reduce((sum, count) => sum + Number(count >= k), 0);
-  const indices = allocating(`${number} indices`, () => roomIn(spares.take(), number));
+  const indices = allocating(`${number} indices`, () => new Uint32Array(number));
   let next = 0;
   counts.forEach((count, index) => {
     if (count >= k) indices[next++] = index;
@@ -183,15 +176,9 @@ export function perform<K extends QueryKind>(target: Target, query: Query<K>): A
   return naming(query.argument, () => performers[query.kind](target, query));
 }
 
-/** A view's settings as the core reads them. The core calls `memory` for its arrays, first for the indices. */
-export function coreOptions(settings: ViewSettings, spares?: Spares): CoreOptions {
-  let left = spares;
-  const memory = (length: number) => {
-    const spare = left?.take();
-    left = undefined;
-    return roomIn(spare, length);
-  };
-  return { ...coreNumbers(settings), memory };
+/** A view's settings as the core reads them. The core calls `memory` for its arrays. */
+export function coreOptions(settings: ViewSettings): CoreOptions {
+  return { ...coreNumbers(settings), memory: (length) => new Uint32Array(length) };
 }
 
 function found({ length }: Target, settings: ViewSettings, answer: CoreAnswer): Found {
@@ -202,7 +189,7 @@ function found({ length }: Target, settings: ViewSettings, answer: CoreAnswer): 
     exponent,
     evaluations,
     inversion: resolvedInversion(settings, scales),
-    exact: answer.exact === 1 && !settings.draft && settings.sample === 0,
+    exact: answer.exact === 1,
     length,
   };
   return settings.scores ? { ...found, scores: answer.scores } : found;

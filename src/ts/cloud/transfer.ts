@@ -1,16 +1,14 @@
+import { describe, HprError } from "../base/errors.js";
 import type { Camera } from "../query/camera.js";
 import type { TransferImage } from "../query/images.js";
-import { SURVEY, type SurveyQuestion } from "../query/surveys.js";
+import type { SeenBy } from "../query/seen-by.js";
+import { type CoverageOptions, surveyed } from "../query/surveys.js";
 import { TRANSFER_OPTIONS, type Transferred, type TransferOptions, TransferTask } from "../query/transfer.js";
-
-/** A `PointCloud`. */
-interface Here {
-  [SURVEY]: <Result>(...question: SurveyQuestion<Result>) => Result;
-}
+import type { PointCloud } from "./cloud.js";
 
 /** A `WorkerPointCloud`. */
 interface InWorkers {
-  [SURVEY]: <Result>(...question: SurveyQuestion<Result>) => Promise<Result>;
+  seenBy(cameras: readonly Camera[], options?: CoverageOptions): Promise<SeenBy>;
 }
 
 /**
@@ -23,7 +21,7 @@ interface InWorkers {
  *   `PointCloud.visibleFromCamera`.
  */
 export function transfer(
-  cloud: Here,
+  cloud: PointCloud,
   cameras: readonly Camera[],
   images: readonly TransferImage[],
   options?: TransferOptions,
@@ -36,12 +34,19 @@ export function transfer(
   options?: TransferOptions & { signal?: AbortSignal | undefined; latest?: boolean | undefined },
 ): Promise<Transferred>;
 export function transfer(
-  cloud: Here | InWorkers,
+  cloud: PointCloud | InWorkers,
   cameras: readonly Camera[],
   images: readonly TransferImage[],
   options?: TransferOptions,
 ): Transferred | Promise<Transferred> {
-  return cloud[SURVEY]("transfer", options, TRANSFER_OPTIONS, (dimension, given, progress) => {
-    return new TransferTask(dimension, cameras, images, given, progress);
-  });
+  const ask = surveyed.get(cloud);
+  if (ask === undefined) {
+    throw new HprError("option", `transfer needs a PointCloud or a WorkerPointCloud, got ${describe(cloud)}`);
+  }
+  return ask([
+    "transfer",
+    options,
+    TRANSFER_OPTIONS,
+    (dimension, given, progress) => new TransferTask(dimension, cameras, images, given, progress),
+  ]);
 }

@@ -1,15 +1,15 @@
 import type { Answers, ChosenRadius, Found } from "../query/answers.js";
-import { describe, HprError } from "../base/errors.js";
+import { HprError } from "../base/errors.js";
 import { addTag } from "../base/tag.js";
 import { allocating } from "../base/memory.js";
-import { plainView, typedArrayType } from "../base/typed-arrays.js";
+import { plainView } from "../base/typed-arrays.js";
 import { INVERTED } from "../query/camera.js";
 import type { ResolvedInversion } from "../query/view-options.js";
 
 /**
- * The points that are visible from one or several viewpoints. The masks are made from `indices` at
- * each call, so a change of `indices` changes them. After the buffer of `indices` was recycled or
- * transferred away, the methods throw an HprError `disposed`.
+ * The points that are visible from one or several viewpoints. The mask is made from `indices` at
+ * each call, so a change of `indices` changes them. After the buffer of `indices` was
+ * transferred away, `mask` throws an HprError `disposed`.
  */
 export interface Visibility extends ChosenRadius {
   /** The indices of the visible points, ascending. This is the caller's own copy. */
@@ -24,35 +24,19 @@ export interface Visibility extends ChosenRadius {
    */
   readonly inversion: ResolvedInversion;
   /**
-   * Whether this is the final answer to the question. False for drafts and samples. Also false if all points of a cloud of
-   * four or more dimensions lie with the viewpoint in one flat, but for rounding that had to be removed.
+   * Whether this is the final answer to the question. It is false if all points of a cloud of four or more dimensions lie with the viewpoint in one flat, but for rounding that had to be removed.
    */
   readonly exact: boolean;
   /**
    * How likely it is that each point of the cloud is visible, from 0 to 1. Only with the option
    * `scores`. The score of removed and skipped points is 0. A visible point may have a score below ½,
-   * and a hidden point a score above ½. With `vote`, the scores are those of the answer before the
-   * vote. This is the caller's own copy.
+   * and a hidden point a score above ½. This is the caller's own copy.
    */
   readonly scores?: Float32Array;
   /** What is probably wrong with a camera: its image holds next to none of the points, and that of the inverse pose many. */
   readonly note?: string;
   /** One byte for each point of the cloud: 1 visible, 0 hidden. */
   mask(): Uint8Array;
-  /**
-   * Writes the mask to the start of `target`, which must have room for one byte for each point of the
-   * cloud.
-   *
-   * @throws HprError `option` if `target` is too short.
-   */
-  maskInto(target: Uint8Array): void;
-  /**
-   * Writes the indices to the start of `target`, which must have room for `count` numbers. Returns
-   * `count`.
-   *
-   * @throws HprError `option` if `target` is too short.
-   */
-  indicesInto(target: Uint32Array): number;
 }
 
 /** The visible points of a view, and the mesh between them. */
@@ -92,24 +76,6 @@ export class VisibilityAnswer implements Visibility {
     addTag(this.prototype, "Visibility");
   }
 
-  /**
-   * Takes the memory of an answer's indices away. Nobody can read these indices after that.
-   *
-   * @throws HprError `option` for a value that is not an answer of a cloud.
-   */
-  static takeMemory(answer: unknown): ArrayBuffer | undefined {
-    if (typeof answer !== "object" || answer === null || !(#cloudLength in answer)) {
-      throw new HprError("option", `recycle needs an answer of a cloud, got ${describe(answer)}`);
-    }
-    try {
-      const { buffer } = answer.indices;
-      return structuredClone(buffer as ArrayBuffer, { transfer: [buffer as ArrayBuffer] });
-    } catch {
-      // The memory is gone already: recycled before, or transferred away.
-      return undefined;
-    }
-  }
-
   constructor(answer: Found) {
     this.indices = answer.indices;
     this.count = answer.indices.length;
@@ -129,37 +95,13 @@ export class VisibilityAnswer implements Visibility {
 
   mask(): Uint8Array {
     const length = this.#cloudLength;
-    const indices = this.#readIndices();
-    const mask = allocating(`a mask of ${length} bytes`, () => new Uint8Array(length));
-    mark(mask, indices);
-    return mask;
-  }
-
-  maskInto(target: Uint8Array): void {
-    const bytes = typedArrayType(target) === "Uint8Array" ? plainView(target, Uint8Array) : undefined;
-    if (bytes === undefined || bytes.length < this.#cloudLength) {
-      throw tooShort("maskInto", "a Uint8Array", this.#cloudLength, target);
-    }
-    const indices = this.#readIndices();
-    bytes.fill(0, 0, this.#cloudLength);
-    mark(bytes, indices);
-  }
-
-  indicesInto(target: Uint32Array): number {
-    const numbers = typedArrayType(target) === "Uint32Array" ? plainView(target, Uint32Array) : undefined;
-    if (numbers === undefined || numbers.length < this.count) {
-      throw tooShort("indicesInto", "a Uint32Array", this.count, target);
-    }
-    numbers.set(this.#readIndices());
-    return this.count;
-  }
-
-  #readIndices(): Uint32Array {
     const indices = plainView(this.indices, Uint32Array);
     if (indices === undefined) {
-      throw new HprError("disposed", "the indices of this answer are gone: recycled or transferred away");
+      throw new HprError("disposed", "the indices of this answer are gone: they have been transferred away");
     }
-    return indices;
+    const mask = allocating(`a mask of ${length} bytes`, () => new Uint8Array(length));
+    for (const index of indices) mask[index] = 1;
+    return mask;
   }
 }
 
@@ -181,18 +123,4 @@ export class CameraAnswer extends VisibilityAnswer implements CameraView {
     this.pixels = answer.pixels;
     this.depths = answer.depths;
   }
-}
-
-function mark(mask: Uint8Array, indices: Uint32Array): void {
-  for (const index of indices) {
-    mask[index] = 1;
-  }
-}
-
-function tooShort(method: string, type: string, length: number, target: unknown): HprError {
-  const got =
-    typedArrayType(target) === undefined
-      ? describe(target)
-      : `${describe(target)} and length ${(target as Uint8Array).length}`;
-  return new HprError("option", `${method} needs ${type} of at least ${length} elements, got ${got}`);
 }

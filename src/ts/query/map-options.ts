@@ -13,7 +13,7 @@ export interface Cone {
 }
 
 /**
- * How a map of directions is made. `draft`, `scores`, `vote` and a radius that is searched are refused.
+ * How a map of directions is made. `scores` and `radius: "opposite"` are refused.
  */
 export interface VisibilityMapOptions extends VisibilityOptions {
   /** How many points the map's hull has at most: an integer of at least 16. Default 32,768. */

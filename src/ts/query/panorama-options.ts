@@ -3,7 +3,7 @@ import { integer } from "./options.js";
 import { readViewpoint, type Viewpoint } from "./positions.js";
 import { VIEW_OPTIONS, type VisibilityOptions } from "./view-options.js";
 
-/** The size of a panorama. `draft` and `scores` are refused. */
+/** The size of a panorama. `scores` is refused. */
 export interface PanoramaOptions extends VisibilityOptions {
   /** The number of columns: an integer from 1 to 16,384. */
   width: number;

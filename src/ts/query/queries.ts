@@ -8,7 +8,7 @@ import { packed, readPositions, readViewpoint, readViewpoints } from "./position
 import { isCameraSeat, readSeats, type Seat } from "./seats.js";
 import { plainView, typedArrayType } from "../base/typed-arrays.js";
 import {
-  refuseDraftAndScores,
+  refuseScores,
   requireLow,
   requireSpace,
   ruleSettings,
@@ -44,19 +44,12 @@ export interface IlluminationOptions extends VisibilityOptions {
   ambient?: number | undefined;
 }
 
-/** The part of a view that one of several workers computes. `number` is from 0 to `count` − 1. */
-export interface Sector {
-  number: number;
-  count: number;
-}
-
 /**
  * The questions to a cloud, by kind. Their arguments are read, copied and checked for type. Their
  * points have the core's number of coordinates (see `coreDimension`).
  */
 export interface Questions {
-  /** `divisible`: whether the view can be divided into sectors, and gains by it. */
-  visibleFrom: { viewpoint: number[]; settings: ViewSettings; divisible: boolean; sector?: Sector };
+  visibleFrom: { viewpoint: number[]; settings: ViewSettings };
   visibilityMap: MapNumbers & { viewpoint: [number, number, number]; settings: ViewSettings };
   panorama: PanoramaSize & { viewpoint: number[]; settings: ViewSettings };
   visibleFromDirection: { direction: number[]; settings: ViewSettings };
@@ -68,8 +61,6 @@ export interface Questions {
   visibleFromCamera: {
     camera: Float64Array<ArrayBuffer>;
     settings: ViewSettings;
-    divisible: boolean;
-    sector?: Sector;
     /** Whether the answer has `towards`. */
     towards?: boolean;
   };
@@ -101,24 +92,13 @@ type GivenOptions = Record<string, unknown>;
 
 export function viewQuery(dimension: number, viewpoint: unknown, given: GivenOptions): Query<"visibleFrom"> {
   const position = readViewpoint(viewpoint, dimension);
-  const settings = viewSettings(given, dimension);
-  return { kind: "visibleFrom", viewpoint: position, settings, divisible: isDivisible(dimension, settings) };
-}
-
-/** Whether a view can be divided into sectors, and gains by it. */
-export function isDivisible(dimension: number, settings: ViewSettings): boolean {
-  // Votes, moved points and other inversions have no bounds that hold from far away. Drafts and
-  // samples are not divided because one worker computes them in little time.
-  const { kernel, denoise, vote, draft, sample } = settings;
-  const isPlain = kernel === 0 && denoise === 0 && vote === 0 && !draft && sample === 0;
-  return dimension === 3 && isPlain;
+  return { kind: "visibleFrom", viewpoint: position, settings: viewSettings(given, dimension) };
 }
 
 export function cameraQuery(dimension: number, camera: unknown, given: GivenOptions): Query<"visibleFromCamera"> {
   requireSpace("visibleFromCamera", dimension);
   const numbers = readCamera(camera);
-  const settings = viewSettings(given, dimension);
-  return { kind: "visibleFromCamera", camera: numbers, settings, divisible: isDivisible(dimension, settings) };
+  return { kind: "visibleFromCamera", camera: numbers, settings: viewSettings(given, dimension) };
 }
 
 export function seesQuery(
@@ -179,7 +159,7 @@ export function severalQuery(
   }
   const settings = viewSettings(given, dimension);
   if (seats.some(isCameraSeat)) {
-    refuseDraftAndScores(settings, "several cameras");
+    refuseScores(settings, "several cameras");
     return { kind: "visibleFromSeats", seats, k, settings };
   }
   const positions = allocating(`${seats.length} viewpoints`, () =>

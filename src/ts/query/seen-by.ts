@@ -26,9 +26,7 @@ export class SeenByTask extends SurveyTask<SeenBy> {
 
   protected override add(number: number, found: Found): void {
     const { indices, pixels, towards } = found as Required<Photographed>;
-    // The memory of the indices is reused.
-    const own = allocating(`${indices.length} indices`, () => indices.slice());
-    this.#views.set(number, { indices: own, pixels, towards });
+    this.#views.set(number, { indices, pixels, towards });
   }
 
   protected override more(): number[] {

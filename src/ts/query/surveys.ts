@@ -8,7 +8,7 @@ import { GreedyChoice, type Placement, type PlacementSettings } from "./placemen
 import type { Query } from "./queries.js";
 import { isCameraSeat, readCameras, readSeats, type Seat } from "./seats.js";
 import {
-  refuseDraftAndScores,
+  refuseScores,
   requireSpace,
   VIEW_OPTIONS,
   type ViewSettings,
@@ -64,7 +64,7 @@ export function readSurvey(
       ? readCameras(viewpoints)
       : readSeats(viewpoints, dimension, method === "coverage" ? "viewpoints" : "candidates");
   const settings = viewSettings(given, dimension);
-  refuseDraftAndScores(settings, method);
+  refuseScores(settings, method);
   return { seats, settings, towards: method === "seenBy" };
 }
 
@@ -105,12 +105,9 @@ function readWeights(weights: unknown): Float64Array<ArrayBuffer> {
 export function viewFrom(seats: readonly Seat[], at: number, settings: ViewSettings, towards = false): View {
   const seat = seats[at]!;
   return isCameraSeat(seat)
-    ? { kind: "visibleFromCamera", camera: seat, settings, divisible: false, towards, argument: `camera ${at}` }
-    : { kind: "visibleFrom", viewpoint: seat, settings, divisible: false, argument: `viewpoint ${at}` };
+    ? { kind: "visibleFromCamera", camera: seat, settings, towards, argument: `camera ${at}` }
+    : { kind: "visibleFrom", viewpoint: seat, settings, argument: `viewpoint ${at}` };
 }
-
-/** The method by which clouds, here and in workers, answer a survey. */
-export const SURVEY = Symbol("survey");
 
 /** The question of a survey: its name, the options with their known names, and how they become a task. */
 export type SurveyQuestion<Result> = [
@@ -119,6 +116,9 @@ export type SurveyQuestion<Result> = [
   names: readonly string[],
   read: (dimension: number, given: GivenOptions, progress?: (fraction: number) => void) => SurveyTask<Result>,
 ];
+
+/** How each cloud, here or in workers, answers a survey. It is no part of the public types. */
+export const surveyed = new WeakMap<object, <Result>(question: SurveyQuestion<Result>) => Result | Promise<Result>>();
 
 /** Many views of one cloud, whose answers come in any order. */
 export abstract class SurveyTask<Result = unknown> {

@@ -6,7 +6,7 @@ import { word } from "./options.js";
 import { MAX_LENGTH } from "./positions.js";
 import { readCameras } from "./seats.js";
 import { COVERAGE_OPTIONS, type CoverageOptions, SurveyTask } from "./surveys.js";
-import { refuseDraftAndScores, requireSpace, viewSettings } from "./view-options.js";
+import { refuseScores, requireSpace, viewSettings } from "./view-options.js";
 import { HprError } from "../base/errors.js";
 import { allocating } from "../base/memory.js";
 
@@ -74,7 +74,7 @@ export class TransferTask extends SurveyTask<Transferred> {
     }
     const isChosen = ["looks", "radius", "exponent", "inversion"].some((name) => given[name] !== undefined);
     requireSpace("transfer", dimension);
-    refuseDraftAndScores(given, "transfer");
+    refuseScores(given, "transfer");
     const seats = readCameras(cameras);
     const own = readImages(images, seats);
     const asked = { ...given, ...(!isChosen && { looks: 3 }), scores: weigh === "score" };
@@ -97,9 +97,7 @@ export class TransferTask extends SurveyTask<Transferred> {
         const [x, y] = [(pixels[2 * k]! - lens[18]!) / lens[16]!, (pixels[2 * k + 1]! - lens[19]!) / lens[17]!];
         return 1 / Math.hypot(1, x, y);
       });
-    // The memory of the indices is reused.
-    const own = allocating(`${indices.length} indices`, () => indices.slice());
-    this.#views[number] = { indices: own, pixels, weights };
+    this.#views[number] = { indices, pixels, weights };
   }
 
   protected override more(): number[] {

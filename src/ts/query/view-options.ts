@@ -1,10 +1,9 @@
 import { describe, HprError } from "../base/errors.js";
 import { entriesOf, flag, integer, number } from "./options.js";
-import { MOST_POINTS } from "./positions.js";
 import { ALL_POINTS, type Within, type WithinSettings, withinSettings } from "./within.js";
 
 /** How the radius R is chosen if it is not given. */
-export type RadiusRule = "auto" | "search" | "opposite";
+export type RadiusRule = "auto" | "opposite";
 
 /**
  * How points are flipped (paper, §3). A point at distance d from the viewpoint moves to the distance
@@ -41,7 +40,6 @@ export interface VisibilityOptions {
    *
    * - `"auto"`, the default, is R = 0.4·n^¼·r²/g, from the viewpoint, the number of points and the gaps
    *   between them (`docs/VISIBLE.md`).
-   * - `"search"` chooses R by antipodal search, which takes six hulls.
    * - `"opposite"` is the paper's own rule (§4), which takes about 40 hulls. In perspective, its R is
    *   mostly far too large.
    */
@@ -54,18 +52,6 @@ export interface VisibilityOptions {
   /** How points are flipped. Default `"spherical"`. */
   inversion?: Inversion | ResolvedInversion | undefined;
   /**
-   * For noisy clouds. Before everything else, each point is projected on the least-squares plane of
-   * itself and its nearest neighbors. This is the number of neighbors: at least 1, and less than the
-   * number of points. Indices and the caller's positions stay.
-   */
-  denoise?: number | undefined;
-  /**
-   * For noisy clouds. A point is visible if more than 0.4 of the group of itself and its nearest
-   * neighbors are visible. This is the number of neighbors: at least 1, and less than the number of
-   * points.
-   */
-  vote?: number | undefined;
-  /**
    * Uses two or three looks instead of one flip. Each look is an exact hull of exp(c/d), and decides
    * only the points that it is sure of. The scale c goes from large to small, in units of the cloud's
    * spacing. The answer is truer around silhouettes and if the sampling is uneven, but takes about
@@ -77,27 +63,12 @@ export interface VisibilityOptions {
    * Only with `looks`: how far behind the surface before it a point may lie and still be seen, in the
    * cloud's units; at least 0. A measured surface is as thick as its noise, and scans that were put
    * together lie beside each other. With `"auto"`, the default, it follows from the cloud's `noise`. If
-   * the noise is the same everywhere, it is removed before the view instead, as by `denoise`. With 0,
-   * neither happens (`docs/LOOKS.md`).
+   * the noise is the same everywhere, it is removed before the view instead. With 0, neither happens
+   * (`docs/LOOKS.md`).
    */
   thickness?: number | "auto" | undefined;
   /** Only with `looks`: the answer also has `scores`, which say how sure it is. For one viewpoint only. */
   scores?: boolean | undefined;
-  /**
-   * Asks for an early answer, in about half of the time. It contains all visible points and some
-   * hidden ones. The points that it leaves out are certainly hidden. Its radius and inversion are
-   * those of the exact answer. If the next question is the same view without `draft`, its
-   * computation goes on from the draft. Not allowed with `radius: "search"` or `"opposite"`, nor for
-   * `reconstruct` and `illuminate`. Default false.
-   */
-  draft?: boolean | undefined;
-  /**
-   * Uses only an even sample of this number of distinct places, at least 1: all points at a place
-   * are in the sample, or none. The answer is the same as for a cloud of only the sampled points,
-   * with that cloud's spacing and farthest distance. The sample depends only on the set of points.
-   * A smaller sample is part of a larger one.
-   */
-  sample?: number | undefined;
   /**
    * Only these points take part. The answer is the same as for a cloud of only these points, with that
    * cloud's spacing and farthest distance. This choice comes before all other options. If there are
@@ -117,48 +88,26 @@ export interface ViewSettings extends WithinSettings {
   kernel: number;
   /** γ or c, if one is given, or the number of looks. */
   parameter: number;
-  /** The number of neighbors. 0 means no denoising. */
-  denoise: number;
-  vote: number;
   scores: boolean;
   /** A negative number means that it is automatic. */
   thickness: number;
-  draft: boolean;
-  /** The number of sampled points. 0 means all points. */
-  sample: number;
 }
 
-export const Rule = { auto: 0, search: 1, opposite: 2, radius: 3, exponent: 4 } as const;
+export const Rule = { auto: 0, opposite: 1, radius: 2, exponent: 3 } as const;
 export const Kernel = { spherical: 0, power: 1, automaticExponential: 2, exponential: 3, looks: 4 } as const;
 
 /** The thickness that stands for `"auto"`. */
 const AUTOMATIC = -1;
 
-export const VIEW_OPTIONS = [
-  "radius",
-  "exponent",
-  "inversion",
-  "denoise",
-  "vote",
-  "looks",
-  "scores",
-  "thickness",
-  "draft",
-  "sample",
-  "within",
-] as const;
+export const VIEW_OPTIONS = ["radius", "exponent", "inversion", "looks", "scores", "thickness", "within"] as const;
 
 /** Reads the options and checks their types. The core checks the ranges, since it knows the distances. */
 export function viewSettings(given: Record<string, unknown>, dimension: number): ViewSettings {
   return {
     ...chosenRadius(given),
     ...(chosenLooks(given, dimension) ?? chosenInversion(given["inversion"])),
-    denoise: neighbors(given, "denoise", dimension),
-    vote: neighbors(given, "vote", dimension),
     scores: wantsScores(given),
     thickness: chosenThickness(given),
-    draft: wantsDraft(given, dimension),
-    sample: sampled(given, dimension),
     ...withinSettings(given["within"], dimension),
   };
 }
@@ -169,26 +118,22 @@ export const NO_OPTIONS: ViewSettings = {
   size: 0,
   kernel: Kernel.spherical,
   parameter: 0,
-  denoise: 0,
-  vote: 0,
   scores: false,
   thickness: AUTOMATIC,
-  draft: false,
-  sample: 0,
   ...ALL_POINTS,
 };
 
 /** The settings as the core reads them (src/wasm/options.rs). */
 export function coreNumbers({ within, mask, ...settings }: ViewSettings) {
-  const { rule, size, kernel, parameter, denoise, vote, scores, thickness, draft, sample } = settings;
-  const numbers = [rule, size, kernel, parameter, denoise, vote, Number(scores), thickness, Number(draft), sample];
+  const { rule, size, kernel, parameter, scores, thickness } = settings;
+  const numbers = [rule, size, kernel, parameter, Number(scores), thickness];
   return { numbers: Float64Array.of(...numbers, ...within), mask };
 }
 
 /** The rule of `autoRadius`, as settings. */
 export function ruleSettings(rule: unknown): ViewSettings {
   if (rule !== undefined && !isRule(rule)) {
-    throw new HprError("option", `the rule must be "auto", "search" or "opposite", got ${describe(rule)}`);
+    throw new HprError("option", `the rule must be "auto" or "opposite", got ${describe(rule)}`);
   }
   return { ...NO_OPTIONS, rule: Rule[rule ?? "auto"] };
 }
@@ -228,7 +173,7 @@ export function chosenRadius(given: Record<string, unknown>): Pick<ViewSettings,
     return { rule: Rule.radius, size: radius };
   }
   if (radius !== undefined && !isRule(radius)) {
-    throw new HprError("option", `radius must be a number, "auto", "search" or "opposite", got ${describe(radius)}`);
+    throw new HprError("option", `radius must be a number, "auto" or "opposite", got ${describe(radius)}`);
   }
   return { rule: Rule[radius ?? "auto"], size: 0 };
 }
@@ -245,9 +190,6 @@ function chosenLooks(
   const excluded = ["radius", "exponent", "inversion"].find((name) => given[name] !== undefined);
   if (excluded !== undefined) {
     throw new HprError("option", `looks and ${excluded} exclude each other; give one of the two`);
-  }
-  if (flag(given, "draft")) {
-    throw new HprError("option", "looks cannot be combined with draft");
   }
   requireSpace("looks", dimension);
   return { kernel: Kernel.looks, parameter: looks };
@@ -306,38 +248,10 @@ export function chosenInversion(inversion: unknown): Pick<ViewSettings, "kernel"
   return { kernel: Kernel.exponential, parameter: exponential };
 }
 
-/** The number of neighbors. The core checks it again: only the core knows how many points are present. */
-function neighbors(given: Record<string, unknown>, name: "denoise" | "vote", dimension: number): number {
-  if (given[name] === undefined) {
-    return 0;
-  }
-  requireSpace(name, dimension);
-  return integer(given, name, 1, MOST_POINTS - 1) ?? 0;
-}
-
-function wantsDraft(given: Record<string, unknown>, dimension: number): boolean {
-  const draft = flag(given, "draft");
-  if (draft) {
-    requireLow("draft", dimension);
-  }
-  return draft;
-}
-
-/** The size of the sample. 0 means that all points take part. */
-function sampled(given: Record<string, unknown>, dimension: number): number {
-  if (given["sample"] === undefined) {
-    return 0;
-  }
-  requireLow("sample", dimension);
-  return integer(given, "sample", 1, MOST_POINTS) ?? 0;
-}
-
 /** Refuses what a question of several views does not give. */
-export function refuseDraftAndScores(given: { draft?: unknown; scores?: unknown }, question: string): void {
-  for (const name of ["draft", "scores"] as const) {
-    if (given[name] !== undefined && given[name] !== false) {
-      throw new HprError("option", `${name} cannot be combined with ${question}`);
-    }
+export function refuseScores({ scores }: { scores?: unknown }, question: string): void {
+  if (scores !== undefined && scores !== false) {
+    throw new HprError("option", `scores cannot be combined with ${question}`);
   }
 }
 
@@ -349,5 +263,5 @@ export function requireLow(what: string, dimension: number): void {
 }
 
 function isRule(value: unknown): value is RadiusRule {
-  return value === "auto" || value === "search" || value === "opposite";
+  return value === "auto" || value === "opposite";
 }

@@ -20,17 +20,16 @@ import type { Place } from "../query/place.js";
 import { isFloatArray, type Positions, readIndices, readPositions, type Viewpoint } from "../query/positions.js";
 import { type Calibration, calibration, type Station } from "../query/calibration.js";
 import { type SurveyName, surveyQuestion, SURVEYS } from "../query/survey-methods.js";
-import { SURVEY, type SurveyQuestion } from "../query/surveys.js";
+import { surveyed, type SurveyQuestion } from "../query/surveys.js";
 import type { Panorama, PanoramaOptions } from "../query/panorama-options.js";
 import type { RadiusRule, VisibilityOptions } from "../query/view-options.js";
 import type { PointCloud } from "../cloud/cloud.js";
 import { METHODS, type MethodName, readQuestion } from "../cloud/methods.js";
-import { type Visibility, VisibilityAnswer } from "../cloud/visibility.js";
 import { abortError, BY_SIGNAL, readSignal, untilAborted } from "./abort.js";
 import { type Progress, readProgress } from "./progress.js";
 import { RequestQueue } from "./request-queue.js";
 import { ViewStream, type ViewStreamOptions } from "./view-stream.js";
-import { defaultWorkers, MAX_WORKERS } from "./workers.js";
+import { MAX_WORKERS } from "./workers.js";
 
 /** How a cloud is sent to its worker. */
 export interface WorkerPointCloudOptions extends PointCloudOptions {
@@ -42,10 +41,9 @@ export interface WorkerPointCloudOptions extends PointCloudOptions {
    */
   transfer?: boolean | undefined;
   /**
-   * How many workers share every view, from 1 to 64. The answers are the same, to the bit. Each
-   * worker keeps the whole cloud in its own memory. The default is 1 if the dimension is not 3, or
-   * if the cloud has fewer than 200,000 points when it is created. Otherwise it is the number of
-   * cores, but at most 4, and at most as many as hold 16 million points together.
+   * How many workers share the viewpoints of `coverage`, `seenBy`, `placeViewpoints` and `transfer`, from 1 to 64. The
+   * answers are the same, to the bit. Each worker keeps the whole cloud in its own memory. A single view is answered by
+   * one worker. Default 1.
    */
   workers?: number | undefined;
   /**
@@ -131,7 +129,7 @@ export class WorkerPointCloud {
     for (const name of Object.keys({ ...METHODS, ...SURVEYS }) as (MethodName | SurveyName)[]) {
       const value = async function (this: WorkerPointCloud, ...args: unknown[]) {
         return name in SURVEYS
-          ? this[SURVEY](...surveyQuestion(name as SurveyName, args[0], args[1]))
+          ? this.#survey(surveyQuestion(name as SurveyName, args[0], args[1]))
           : this.#ask(name as MethodName, args);
       };
       Object.defineProperty(this.prototype, name, { value, writable: true, configurable: true });
@@ -143,6 +141,7 @@ export class WorkerPointCloud {
     this.#settings = settings;
     this.#size = size;
     unreachable.register(this, queue, this);
+    surveyed.set(this, (question) => this.#survey(question));
   }
 
   /**
@@ -199,14 +198,11 @@ export class WorkerPointCloud {
     queue: RequestQueue,
     positions: Float32Array<ArrayBuffer> | Float64Array<ArrayBuffer>,
     settings: CloudSettings,
-    workers: number | "shared" | undefined,
+    workers: number | "shared",
     progress: Progress | undefined,
   ): Promise<WorkerPointCloud> {
     progress?.at(0);
-    // Only views in space are divided.
-    const points = settings.dimension === 3 ? positions.length / settings.stride : 0;
-    const count = workers ?? (await defaultWorkers(points));
-    const [module] = await Promise.all([moduleForWorker(), queue.start(count)]);
+    const [module] = await Promise.all([moduleForWorker(), queue.start(workers)]);
     const request = { kind: "create" as const, module, positions, settings, reporting: progress !== undefined };
     const size = await queue.ask(request, { onProgress: (share) => progress?.at(share) });
     progress?.at(1);
@@ -281,18 +277,6 @@ export class WorkerPointCloud {
   }
 
   /**
-   * Reuses the memory of an answer's `indices` for later answers. The indices of this answer are
-   * gone then. This is for a viewpoint that moves: no memory is left to the garbage collector.
-   * After this, `indices` of an answer may be the start of a longer buffer. Does nothing if the
-   * indices are gone already.
-   *
-   * @throws HprError `option` for a value that is not an answer of a cloud.
-   */
-  recycle(answer: Visibility): void {
-    this.#queue.recycle(VisibilityAnswer.takeMemory(answer));
-  }
-
-  /**
    * Ends the workers, which frees all of their memory. Resolves when they have ended. Pending
    * requests are rejected with `disposed`. May be called twice.
    */
@@ -301,11 +285,8 @@ export class WorkerPointCloud {
     await this.#queue.close(new HprError("disposed", "this cloud has been disposed of"));
   }
 
-  /**
-   * Answers all views of a task, as the options of the request say.
-   * @hidden
-   */
-  async [SURVEY]<Result>(...[method, options, names, read]: SurveyQuestion<Result>): Promise<Result> {
+  /** Answers all views of a task, as the options of the request say. */
+  async #survey<Result>([method, options, names, read]: SurveyQuestion<Result>): Promise<Result> {
     this.#queue.requireOpen();
     const given = givenOptions(options, names, REQUEST_OPTIONS);
     const latest = flag(given, "latest") ? method : undefined;
@@ -367,10 +348,10 @@ function giveAway(
 }
 
 /** Starts this cloud's own workers, or joins the shared one. */
-function readPlacement(given: Record<string, unknown>): number | "shared" | undefined {
+function readPlacement(given: Record<string, unknown>): number | "shared" {
   const workers = integer(given, "workers", 1, MAX_WORKERS);
   if (!flag(given, "shared")) {
-    return workers;
+    return workers ?? 1;
   }
   if (workers !== undefined) {
     throw new HprError("option", "shared and workers exclude each other; give one of the two");

@@ -14,8 +14,6 @@ export class Dealing {
   readonly #done: (reply: Reply) => void;
   #idle: Thread[];
   readonly #running = new Map<Thread, number>();
-  /** The memory of answers that were taken. */
-  readonly #spares: ArrayBuffer[] = [];
   #failure: Failure | undefined;
 
   /** @param done is called with the reply to the survey, at the end. */
@@ -33,10 +31,8 @@ export class Dealing {
       const next = this.#attempt(Infinity, () => this.#task.next(this.#running.size));
       if (next === undefined) break;
       const thread = this.#idle.pop()!;
-      const spare = this.#spares.pop();
-      const request = { ...next.view, spare };
       this.#running.set(thread, next.number);
-      thread.post(request satisfies Request, spare === undefined ? [] : [spare]);
+      thread.post(next.view satisfies Request, []);
     }
     if (this.#running.size === 0) {
       this.#done(this.#failure?.reply ?? { value: {} });
@@ -49,11 +45,9 @@ export class Dealing {
     this.#running.delete(thread);
     this.#idle.push(thread);
     if ("value" in reply) {
-      const found = reply.value as Replies["visibleFrom"];
       this.#attempt(number, () => {
-        this.#task.take(number, found);
+        this.#task.take(number, reply.value as Replies["visibleFrom"]);
       });
-      this.#spares.push(found.indices.buffer);
     } else {
       this.#fail(number, reply);
     }

@@ -1,4 +1,4 @@
-import type { Answers, Found } from "../query/answers.js";
+import type { Answers } from "../query/answers.js";
 import { HprError, type HprErrorCode } from "../base/errors.js";
 import type { CloudSettings, CloudSize } from "../query/options.js";
 import type { Query } from "../query/queries.js";
@@ -29,11 +29,8 @@ export type Request =
   | { kind: "abandon" }
   /** Asks many views. The team deals them out to its members, so this is never sent to a worker. */
   | { kind: "survey"; task: SurveyTask }
-  /**
-   * `spare` is memory for the answer's indices, if there is some. With `sliced`, a view that
-   * goes on from a draft, or takes several looks, is computed in slices, so that it can be given up.
-   */
-  | (Query & { spare?: ArrayBuffer | undefined; sliced?: boolean });
+  /** With `sliced`, a view is computed in slices, so that it can be given up. */
+  | (Query & { sliced?: boolean });
 
 /** The value of a reply, by the kind of its request. */
 export interface Replies extends Answers {
@@ -44,18 +41,6 @@ export interface Replies extends Answers {
   abandon: object;
   survey: object;
 }
-
-type KindWithIndices = { [Kind in keyof Replies]: Replies[Kind] extends Found ? Kind : never }[keyof Replies];
-
-/** All kinds of requests whose replies have indices. These may be written into spare memory. */
-export const WITH_INDICES: Readonly<Record<KindWithIndices, true>> = {
-  visibleFrom: true,
-  visibleFromDirection: true,
-  visibleFromSeveral: true,
-  visibleFromSeats: true,
-  visibleFromCamera: true,
-  reconstruct: true,
-};
 
 /** Whether the worker replies to a request. */
 export function isReplied({ kind }: Request): boolean {

@@ -1,9 +1,8 @@
 import type { Answers } from "../query/answers.js";
 import { asError, HprError } from "../base/errors.js";
 import type { Query, QueryKind } from "../query/queries.js";
-import { Spares } from "../cloud/spares.js";
 import { abortError, BY_SIGNAL, whenAborted } from "./abort.js";
-import { isProgress, READY, type Replies, type Reply, type Request, WITH_INDICES } from "./protocol.js";
+import { isProgress, READY, type Replies, type Reply, type Request } from "./protocol.js";
 import { Team } from "./team.js";
 import { startError } from "./start-thread.js";
 import type { GuestEvents } from "./thread.js";
@@ -46,14 +45,13 @@ export class RequestQueue implements GuestEvents {
   #running: Pending | undefined;
   #waiting: Pending[] = [];
   #closed: Error | undefined;
-  readonly #spares = new Spares();
 
   /** `keeps`: whether it keeps a copy of all positions, to make the cloud again if its workers hang. */
   constructor(keeps: boolean) {
     this.#changes = keeps ? [] : undefined;
   }
 
-  /** Starts this number of workers, which act as one, or joins the shared worker. */
+  /** Starts this number of workers, or joins the shared worker. */
   async start(workers: number | "shared"): Promise<void> {
     this.#workers = workers;
     const team = await Team.start(workers, this);
@@ -92,13 +90,6 @@ export class RequestQueue implements GuestEvents {
     });
   }
 
-  /** Keeps memory for the indices of later answers. */
-  recycle(buffer: ArrayBuffer | undefined): void {
-    if (this.#closed === undefined) {
-      this.#spares.keep(buffer);
-    }
-  }
-
   /** After `close`, throws its reason. */
   requireOpen(): void {
     if (this.#closed !== undefined) {
@@ -109,7 +100,6 @@ export class RequestQueue implements GuestEvents {
   /** Ends the workers. Pending and later requests are rejected with `reason`. */
   async close(reason: Error): Promise<void> {
     this.#closed = reason;
-    this.#spares.clear();
     this.#changes = undefined;
     const pending = this.#running === undefined ? this.#waiting : [this.#running, ...this.#waiting];
     this.#running?.forget?.();
@@ -209,13 +199,7 @@ export class RequestQueue implements GuestEvents {
     if (next !== undefined) {
       const { request, signal } = next;
       this.#team.post(
-        request.kind in WITH_INDICES
-          ? ({
-              ...request,
-              spare: this.#spares.take(),
-              sliced: signal !== undefined,
-            } as Request)
-          : this.#toGive(request),
+        request.kind === "visibleFrom" ? { ...request, sliced: signal !== undefined } : this.#toGive(request),
       );
       if (signal !== undefined) {
         next.forget = whenAborted(signal, () => {

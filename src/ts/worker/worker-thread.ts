@@ -75,10 +75,8 @@ function answer(letter: Letter<Request>, post: Post): Replies[Request["kind"]] {
     case "remove":
       cloud.remove(request.indices);
       return cloud.size;
-    default: {
-      cloud.keepMemory(request.spare);
+    default:
       return cloud.ask(request);
-    }
   }
 }
 

@@ -2,25 +2,18 @@ import { hasNodeModules, importNodeModule } from "../base/node.js";
 
 /** More workers would only wait for memory, and each of them holds the whole cloud. */
 export const MAX_WORKERS = 64;
-/**
- * For fewer points, a second worker gains too little. For more points, it makes views from outside
- * 1.4 to 1.7 times as fast. Some views from inside gain nothing, and large clouds gain less.
- */
+/** For fewer points, a second worker gains too little. */
 const CROSSOVER = 200_000;
-/**
- * The largest number of workers by default: a page needs cores and memory for other work, too.
- */
-const MAX_DEFAULT = 4;
 /** The largest number of points by default, summed over the copies of all workers. */
 const MAX_DEFAULT_POINTS = 16_000_000;
 
-/** The default number of workers for a cloud with this number of points: the number of cores, but at most `most`. */
-export async function defaultWorkers(points: number, most = MAX_DEFAULT): Promise<number> {
+/** How many workers gain something when they share many views of a cloud with this number of points. */
+export async function defaultWorkers(points: number): Promise<number> {
   if (points < CROSSOVER) {
     return 1;
   }
   const fit = Math.floor(MAX_DEFAULT_POINTS / points);
-  return Math.max(1, Math.min(await cores(), most, fit));
+  return Math.max(1, Math.min(await cores(), MAX_WORKERS, fit));
 }
 
 async function cores(): Promise<number> {

@@ -164,7 +164,6 @@ export const disappearingMemory = fc.asyncProperty(
         { codes: ["disposed"], sure: true },
         await outcomeOf(() => answer.mask()),
       );
-      cloud.recycle(answer);
     }
     require((await cloud.visibleFrom([0, 0, 9])).count > 0, "the cloud does not go on");
     await cloud.dispose();

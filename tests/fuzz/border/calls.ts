@@ -54,7 +54,7 @@ function call(method: Method, args: readonly Argument[], more: readonly string[]
 
 const rule = named(
   fc.constantFrom(
-    ...[undefined, "auto", "search", "opposite"].map((it) => good(String(it), it)),
+    ...[undefined, "auto", "opposite"].map((it) => good(String(it), it)),
     ...JUNK.filter(([, make]) => make() !== undefined).map(([name, make]) => bad("option", name, make, undefined)),
   ),
 );
@@ -76,22 +76,18 @@ export function anyCall(dimension: number): fc.Arbitrary<Call> {
   const calls = fc.oneof(
     {
       weight: 3,
-      arbitrary: fc.tuple(viewpoint(dimension), viewOptions(dimension)).map((args) => call("visibleFrom", args)),
+      arbitrary: fc.tuple(viewpoint(dimension), viewOptions).map((args) => call("visibleFrom", args)),
     },
     fc
-      .tuple(viewpoint(3), directionOptions(dimension))
+      .tuple(viewpoint(3), directionOptions)
       .map(([ahead, options]) => call("visibleFromDirection", [directed(ahead), options], inSpaceOnly)),
-    fc.tuple(viewpoints(dimension), viewOptions(dimension)).map((args) => call("visibleFromAny", args)),
+    fc.tuple(viewpoints(dimension), viewOptions).map((args) => call("visibleFromAny", args)),
     viewpoints(dimension)
-      .chain((list) => fc.tuple(least(list.meaning.length), fc.constant(list), viewOptions(dimension)))
+      .chain((list) => fc.tuple(least(list.meaning.length), fc.constant(list), viewOptions))
       .map((args) => call("visibleFromAtLeast", args)),
     fc.tuple(viewpoint(dimension), rule).map((args) => call("autoRadius", args)),
-    fc
-      .tuple(viewpoint(dimension), reconstructionOptions(dimension))
-      .map((args) => call("reconstruct", args, inSpaceOnly)),
-    fc
-      .tuple(viewpoints(dimension), illuminationOptions(dimension))
-      .map((args) => call("illuminate", args, inSpaceOnly)),
+    fc.tuple(viewpoint(dimension), reconstructionOptions).map((args) => call("reconstruct", args, inSpaceOnly)),
+    fc.tuple(viewpoints(dimension), illuminationOptions).map((args) => call("illuminate", args, inSpaceOnly)),
   );
   return named(calls);
 }

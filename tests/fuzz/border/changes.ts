@@ -1,10 +1,10 @@
 // Properties of clouds that change: any sequence of steps, on this thread, and in a worker without waiting for it.
 import fc from "fast-check";
-import { PointCloud, type Visibility } from "hidden-point-removal";
+import { PointCloud } from "hidden-point-removal";
 import { WorkerPointCloud } from "hidden-point-removal/worker";
 import { type Argument, bad, dressed, JUNK, named } from "./argument.js";
 import { anyCall, type Call } from "./calls.js";
-import { agree, judge, type Outcome, outcomeOf, require } from "./outcome.js";
+import { judge, type Outcome, outcomeOf, require } from "./outcome.js";
 import { coordinates, positions } from "./points.js";
 import { compare, reference } from "./single.js";
 
@@ -13,7 +13,6 @@ type Step = { name: string } & (
   | { kind: "append"; points: Argument<readonly number[]> }
   | { kind: "remove"; indices: Argument<readonly number[]> }
   | { kind: "ask"; call: Call }
-  | { kind: "recycle" }
   | { kind: "dispose" }
 );
 
@@ -59,7 +58,6 @@ const steps = fc.array(
         arbitrary: indices.map((list): Step => ({ kind: "remove", indices: list, name: `remove(${list.name})` })),
       },
       { weight: 5, arbitrary: anyCall(3).map((call): Step => ({ kind: "ask", call, name: call.name })) },
-      { weight: 1, arbitrary: fc.constant<Step>({ kind: "recycle", name: "recycle" }) },
       { weight: 1, arbitrary: fc.constant<Step>({ kind: "dispose", name: "dispose" }) },
     ),
   ),
@@ -106,7 +104,6 @@ class Model {
 async function walk(cloud: AnyCloud, start: number[], list: readonly Step[]): Promise<void> {
   const model = new Model(start);
   const checks: Promise<void>[] = [];
-  let last: Visibility | undefined;
   for (const step of list) {
     const gone = model.disposed ? ["disposed"] : [];
     const expect = (outcome: Promise<Outcome>, codes: readonly string[]) => {
@@ -133,20 +130,6 @@ async function walk(cloud: AnyCloud, start: number[], list: readonly Step[]): Pr
         break;
       case "ask":
         checks.push(asked(cloud, step.call, model));
-        break;
-      case "recycle":
-        if (!model.disposed) {
-          last = await cloud.visibleFrom([0, 0, 9]);
-        }
-        if (last !== undefined) {
-          cloud.recycle(last);
-          require(last.indices.length === 0, "recycled indices are still there");
-          agree("mask of a recycled answer", await outcomeOf(() => last!.mask()), {
-            refused: "disposed",
-            error: undefined,
-          });
-          cloud.recycle(last);
-        }
         break;
       case "dispose":
         // flight.ts tests workers that end while they work.

@@ -10,7 +10,7 @@ interface Field {
   codes: readonly string[];
   sure: boolean;
   /** The kind of the value, for the rules about several fields. */
-  is?: "radius" | "rule" | "exponent" | "power" | "exponential" | "neighbors";
+  is?: "radius" | "rule" | "exponent" | "power" | "exponential";
 }
 
 export type Meaning = Readonly<Record<string, unknown>>;
@@ -43,10 +43,9 @@ const RADIUS: Field[] = [
   fine("radius", 1e9, "radius"),
   maybe("radius", "radius", 7, "radius"),
   fine("radius", "auto"),
-  fine("radius", "search", "rule"),
   fine("radius", "opposite", "rule"),
   ...[NaN, Infinity, -Infinity, 0, -0, -5, 1.7e308].map((x) => wrong("radius", "radius", () => x, "radius")),
-  wrong("option", "radius", () => "best"),
+  wrong("option", "radius", () => "search"),
   ...junkFor("radius", isNumber),
 ];
 const EXPONENT: Field[] = [
@@ -66,13 +65,9 @@ const INVERSION: Field[] = [
   ),
   ...junkFor("inversion", () => false),
 ];
-const NEIGHBORS: Field[] = (["denoise", "vote"] as const).flatMap((key) => [
-  ...[1, 2, 5].map((x) => maybe("option", key, x, "neighbors")),
-  ...[0, -1, 1.5, NaN, Infinity, 2 ** 32 + 1, 1000].map((x) => wrong("option", key, () => x)),
-  ...junkFor(key, isNumber),
-]);
 const UNKNOWN: Field[] = [
   wrong("option", "foo", () => 1),
+  wrong("option", "draft", () => true),
   wrong("option", "Radius", () => 100),
   wrong("option", "dimension", () => 3),
 ];
@@ -87,22 +82,22 @@ function oneOf(...lists: Field[][]): fc.Arbitrary<Field> {
   );
 }
 
-const view = oneOf(RADIUS, EXPONENT, INVERSION, NEIGHBORS, UNKNOWN);
+const view = oneOf(RADIUS, EXPONENT, INVERSION, UNKNOWN);
 
-/** Options for a view from one viewpoint, in a cloud of this dimension. */
-export const viewOptions = (dimension: number): fc.Arbitrary<Options> => together(view, dimension, () => []);
+/** Options for a view from one viewpoint. */
+export const viewOptions: fc.Arbitrary<Options> = together(view, () => []);
 
-/** Options for a view along a direction. A power and the rules `search` and `opposite` are refused there. */
-export const directionOptions = (dimension: number): fc.Arbitrary<Options> =>
-  together(view, dimension, (fields) => fields.filter(({ is }) => is === "power" || is === "rule").map(() => "option"));
+/** Options for a view along a direction. A power and the rule `opposite` are refused there. */
+export const directionOptions: fc.Arbitrary<Options> = together(view, (fields) =>
+  fields.filter(({ is }) => is === "power" || is === "rule").map(() => "option"),
+);
 
 const maxEdge: Field[] = [
   ...[0.5, 3, Infinity].map((x) => fine("maxEdge", x)),
   ...[NaN, -1, 0].map((x) => maybe("option", "maxEdge", x)),
   ...junkFor("maxEdge", isNumber),
 ];
-export const reconstructionOptions = (dimension: number): fc.Arbitrary<Options> =>
-  together(fc.oneof(view, oneOf(maxEdge)), dimension, () => []);
+export const reconstructionOptions: fc.Arbitrary<Options> = together(fc.oneof(view, oneOf(maxEdge)), () => []);
 
 const light: Field[] = [
   ...[0, 1, 3].map((x) => fine("smoothing", x)),
@@ -119,20 +114,15 @@ const light: Field[] = [
   wrong("option", "triangles", () => [0, 1, 2]),
   ...junkFor("triangles", () => false),
 ];
-export const illuminationOptions = (dimension: number): fc.Arbitrary<Options> =>
-  together(fc.oneof(view, oneOf(light)), dimension, () => []);
+export const illuminationOptions: fc.Arbitrary<Options> = together(fc.oneof(view, oneOf(light)), () => []);
 
 /** Options with up to two fields. If both have the same name, the later one counts. */
-function together(
-  field: fc.Arbitrary<Field>,
-  dimension: number,
-  more: (fields: Field[]) => string[],
-): fc.Arbitrary<Options> {
+function together(field: fc.Arbitrary<Field>, more: (fields: Field[]) => string[]): fc.Arbitrary<Options> {
   const options = fc
     .tuple(fc.array(field, { maxLength: 2 }), fc.constantFrom(...WRAPPINGS))
     .map(([all, [wrapping, wrap]]): Options => {
       const fields = [...new Map(all.map((one) => [one.key, one])).values()];
-      const clashes = [...clash(fields, dimension), ...more(fields)];
+      const clashes = [...clash(fields), ...more(fields)];
       return {
         name: `${wrapping} with ${fields.map(({ key, make }) => `${key}: ${shown(make())}`).join(", ")}`,
         make: () => wrap(valuesOf(fields)),
@@ -158,13 +148,12 @@ function together(
 const valuesOf = (fields: Field[]) => Object.fromEntries(fields.map(({ key, make }) => [key, make()]));
 const shown = (value: unknown) => inspect(value, { maxStringLength: 40, breakLength: Infinity });
 
-/** The code for fields that exclude each other, or that this dimension does not have. */
-function clash(fields: Field[], dimension: number): string[] {
+/** The code for fields that exclude each other. */
+function clash(fields: Field[]): string[] {
   const has = (is: Field["is"]) => fields.some((one) => one.is === is);
   const sized = fields.some(({ key }) => key === "radius") && has("exponent");
   const other = (has("exponent") || has("rule")) && (has("power") || has("exponential"));
-  const neighbors = has("neighbors") && dimension !== 3;
-  return sized || other || neighbors || (has("radius") && has("exponential")) ? ["option"] : [];
+  return sized || other || (has("radius") && has("exponential")) ? ["option"] : [];
 }
 
 const WRAPPINGS: [name: string, wrap: (values: Meaning) => unknown][] = [
@@ -220,7 +209,6 @@ export const cloudShape: fc.Arbitrary<CloudShape & { options: Options }> = fc.on
           ...[wrong("option", "strid", () => 4), wrong("option", "exponent", () => 2)],
         ),
       ),
-      3,
       () => [],
     )
       .filter(({ sure }) => sure)

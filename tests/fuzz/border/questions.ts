@@ -1,4 +1,4 @@
-// Questions to structured clouds, with looks, scores, choices of points, drafts and cameras. Most are good. Some must
+// Questions to structured clouds, with looks, scores, choices of points, and cameras. Most are good. Some must
 // be refused.
 import fc from "fast-check";
 import type { Camera, PointCloud, VisibilityOptions } from "hidden-point-removal";
@@ -28,7 +28,7 @@ const INVERSIONS: readonly VisibilityOptions[] = [
   { exponent: 3.5 },
   { radius: 1e3 },
   { radius: 60 },
-  { radius: "search" },
+  { radius: "opposite" },
   { inversion: { power: 2 } },
   { inversion: { exponential: "auto" } },
   { inversion: { exponential: 3 } },
@@ -40,19 +40,6 @@ const BAD_INVERSIONS: readonly VisibilityOptions[] = [
   { scores: true },
   { exponent: NaN },
 ];
-
-/** Options that go with these. Drafts with looks are refused. */
-const MORE: readonly VisibilityOptions[] = [
-  {},
-  {},
-  {},
-  {},
-  { draft: true },
-  { sample: 12 },
-  { denoise: 4 },
-  { vote: 3 },
-];
-const BAD_MORE: readonly VisibilityOptions[] = [{ sample: 0 }, { vote: 5000 }, { draft: 1 as never }];
 
 /** All points, no point, and every third point, for a cloud of this length. */
 const MASKS: readonly ((length: number) => Uint8Array)[] = [
@@ -73,8 +60,8 @@ function within({ length, place }: Scene): fc.Arbitrary<VisibilityOptions["withi
 function view(scene: Scene): fc.Arbitrary<VisibilityOptions> {
   const choice = fc.oneof({ weight: 2, arbitrary: fc.constant(undefined) }, { weight: 1, arbitrary: within(scene) });
   return fc
-    .tuple(mostly(INVERSIONS, BAD_INVERSIONS), mostly(MORE, BAD_MORE), choice)
-    .map(([inversion, more, within]) => ({ ...inversion, ...more, ...(within && { within }) }));
+    .tuple(mostly(INVERSIONS, BAD_INVERSIONS), choice)
+    .map(([inversion, within]) => ({ ...inversion, ...(within && { within }) }));
 }
 
 /** Quarter turns about the axes, as the columns of a matrix. */
@@ -163,7 +150,7 @@ export function question(scene: Scene): fc.Arbitrary<Question> {
     { count: fc.constantFrom(1, 2, 9, 0), share: fc.constantFrom(0.5, 1, 0) },
     { requiredKeys: [] },
   );
-  const rule = fc.constantFrom("auto", "search", "opposite") as fc.Arbitrary<"auto">;
+  const rule = fc.constantFrom("auto", "opposite", "search") as fc.Arbitrary<"auto">;
   const direction = mostly(DIRECTIONS, NO_DIRECTIONS);
   const edge = mostly<{ maxEdge?: number }>([{}, { maxEdge: 2 }, { maxEdge: Infinity }], [{ maxEdge: NaN }]);
   const light = mostly<{ smoothing?: number; ambient?: number }>(

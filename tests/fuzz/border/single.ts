@@ -133,7 +133,7 @@ export const oneShot = fc.asyncProperty(
       options: fc.constant(options),
       points: positions(shape.dimension, shape.stride, shape.skips),
       from: viewpoint(shape.dimension),
-      view: viewOptions(shape.dimension),
+      view: viewOptions,
     }),
   ),
   async ({ shape, options, points, from, view }) => {

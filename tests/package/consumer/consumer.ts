@@ -50,10 +50,8 @@ export async function everything(): Promise<HprErrorCode | undefined> {
     cloud.append(new BigInt64Array(4));
     const visible: Visibility = cloud.visibleFrom([0, 0, 5], options);
     const indices: Uint32Array = visible.indices;
-    visible.maskInto(new Uint8Array(cloud.length));
-    const written: number = visible.indicesInto(new Uint32Array(visible.count));
     const { radius, exponent, evaluations } = cloud.autoRadius(new Float64Array(3));
-    console.log(indices, written, radius, exponent, evaluations, visible.mask(), visible.inversion);
+    console.log(indices, radius, exponent, evaluations, visible.mask(), visible.inversion);
     console.log(hiddenPointRemoval([1, 2, 3], [0, 0, 5], { radius: 10, ...reading }).count);
 
     cloud.visibleFrom([0, 0, 5], { radius: perhaps, exponent: perhaps, inversion: undefined });
@@ -68,10 +66,10 @@ export async function everything(): Promise<HprErrorCode | undefined> {
     console.log(ids);
 
     const inversions: Inversion[] = ["spherical", { power: 2 }, { exponential: 0.1 }, { exponential: "auto" }];
-    const rules: RadiusRule[] = ["auto", "search", "opposite"];
+    const rules: RadiusRule[] = ["auto", "opposite"];
     const ring: number[][] = ringOfViewpoints([0, 0, 5], new Float32Array(3), { count: 5, fraction: perhaps });
-    const seen = cloud.visibleFromAtLeast(2, [...ring, new Float64Array(3)], { inversion: inversions[1], vote: 3 });
-    const inversion: ResolvedInversion = cloud.visibleFromAny(ring, { radius: rules[1], denoise: perhaps }).inversion;
+    const seen = cloud.visibleFromAtLeast(2, [...ring, new Float64Array(3)], { inversion: inversions[1] });
+    const inversion: ResolvedInversion = cloud.visibleFromAny(ring, { radius: rules[1], exponent: perhaps }).inversion;
     mergeVisible(parts, [0, 0, 5], { radius: seen.radius, inversion });
     const meshing: ReconstructionOptions = { maxEdge: Infinity };
     const mesh: Reconstruction = cloud.reconstruct([0, 0, 5], meshing);
@@ -94,9 +92,9 @@ export async function everything(): Promise<HprErrorCode | undefined> {
     const far: Float32Array = await remote.illuminate([[0, 0, 5]], lighting);
     const remoteMesh: Reconstruction = await remote.reconstruct([0, 0, 5], meshing);
     await remote.visibleFromAny(ring);
-    await remote.visibleFromAtLeast(1, ring, { radius: "search" });
+    await remote.visibleFromAtLeast(1, ring, { radius: "opposite" });
     await remote.visibleFromDirection([0, 0, 1]);
-    console.log(far, remoteMesh.triangles, (await remote.autoRadius([0, 0, 5], "search")).evaluations);
+    console.log(far, remoteMesh.triangles, (await remote.autoRadius([0, 0, 5], "opposite")).evaluations);
     await remote.dispose();
 
     // @ts-expect-error -- a cloud keeps its length
@@ -138,8 +136,8 @@ export async function small(): Promise<lite.HprErrorCode | undefined> {
   console.log(visible.mask(), visible.exact, cloud.autoRadius([0, 5], "auto").radius);
   // @ts-expect-error The small module knows no looks.
   cloud.visibleFrom([0, 5], { looks: 3 });
-  // @ts-expect-error And no search of a radius.
-  cloud.visibleFrom([0, 5], { radius: "search" });
+  // @ts-expect-error And not the paper's rule of the radius.
+  cloud.visibleFrom([0, 5], { radius: "opposite" });
   // @ts-expect-error And no scores.
   console.log(visible.scores);
   // @ts-expect-error And no higher dimensions.
