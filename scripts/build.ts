@@ -1,6 +1,5 @@
 // npm run build [-- package]: the npm package in dist, and the demo page in www/dist.
 import { build } from "./build/build.js";
-import { buildFiles } from "./build/files.js";
 import { buildPackage } from "./build/package.js";
 import { buildWasm } from "./build/wasm.js";
 import { command } from "./lib/command.js";
@@ -17,7 +16,6 @@ await command(async () => {
     await build();
   } else {
     await buildWasm();
-    await buildFiles();
     await buildPackage();
   }
 });

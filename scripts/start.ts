@@ -2,7 +2,6 @@
 // Changes to the page show at once. Changes to the package show after a restart.
 import { createServer } from "vite";
 
-import { buildFiles } from "./build/files.js";
 import { buildPackage } from "./build/package.js";
 import { buildWasm } from "./build/wasm.js";
 import { command } from "./lib/command.js";
@@ -14,7 +13,6 @@ await command(async () => {
   const { port, asked } = chosenPort();
   await setUpForBuild();
   await buildWasm();
-  await buildFiles();
   await buildPackage();
   // A port from PORT is used or refused. The usual port may give way to the next one.
   // The host is a number, because with `localhost` some systems would listen on IPv6 only.

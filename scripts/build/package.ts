@@ -1,17 +1,13 @@
 import { copyFileSync, mkdirSync, rmSync, writeFileSync } from "node:fs";
+import { dirname } from "node:path";
 
 import { inRoot, TSC } from "../lib/paths.js";
 import { mustRun, say } from "../lib/run.js";
 import { unlessUnchanged } from "../lib/stamp.js";
-import { FILES } from "./files.js";
 import { bundleGlobal, EMBEDDED, embedWasm, embedWorker } from "./embed.js";
-import { GLUE, MODULES } from "./wasm.js";
+import { WASM_FILES } from "./wasm.js";
 
-const GENERATED = [
-  ...Object.keys(MODULES).flatMap((folder) => GLUE.map((file) => `${folder}/${file}`)),
-  ...EMBEDDED.map((file) => `wasm/${file}`),
-  FILES,
-];
+const GENERATED = [...WASM_FILES, ...EMBEDDED.map((file) => `wasm/${file}`)];
 
 /** The script for pages without a bundler. */
 const GLOBAL = "dist/hidden-point-removal.global.js";
@@ -31,8 +27,10 @@ export async function buildPackage(): Promise<void> {
     embedWasm();
     const worker = await embedWorker();
     await mustRun(process.execPath, [TSC, "-p", "tsconfig.build.json"], "The npm package does not compile");
-    for (const folder of Object.keys(MODULES)) mkdirSync(inRoot("dist", folder), { recursive: true });
-    for (const file of GENERATED) copyFileSync(inRoot("src/ts", file), inRoot("dist", file));
+    for (const file of GENERATED) {
+      mkdirSync(inRoot("dist", dirname(file)), { recursive: true });
+      copyFileSync(inRoot("src/ts", file), inRoot("dist", file));
+    }
     writeFileSync(inRoot("dist/worker-thread.js"), worker);
     writeFileSync(inRoot(GLOBAL), await bundleGlobal());
     // Only the script has it.

@@ -1,13 +1,13 @@
 import { run } from "../lib/run.js";
-import { BARE_TARGET, WASM_TARGET } from "../setup/rust.js";
-import { SETUP } from "./build.js";
+import { BARE_TARGET } from "../setup/rust.js";
+import { SETUP, WASM_PACK } from "./build.js";
 import type { Check, Outcome } from "./check.js";
 import { checkCommand, counted, sum } from "./check.js";
 import { roomsCheck } from "./rooms.js";
 
+const NATIVE = ["test", "--locked", "--profile", "fuzz", "--no-fail-fast"];
 const DENY_WARNINGS = ["--", "-D", "warnings"];
 const NO_STD = "--no-default-features";
-const ON_WASM = ["--target", WASM_TARGET];
 const ON_BARE = ["--target", BARE_TARGET];
 
 export const rustChecks: Check[] = [
@@ -17,21 +17,16 @@ export const rustChecks: Check[] = [
     needs: [SETUP],
     locks: "fuzz",
     // The examples are left out: cargo would link each of them by itself, and clippy compiles them anyway.
-    run: async () => sum([await cargoTest("--lib", "--tests"), await cargoTest("--doc")]),
+    run: async () =>
+      sum([await cargoTest("cargo", [...NATIVE, "--lib", "--tests"]), await cargoTest("cargo", [...NATIVE, "--doc"])]),
   },
   roomsCheck,
   {
-    title: "Rust: the same bits in WebAssembly, under Node",
+    title: "Rust: tests in WebAssembly, under Node",
     part: "core",
-    needs: [SETUP],
+    needs: [WASM_PACK],
     locks: "wasm",
-    // One corpus of every kind of question. Its digest is the native one, so what `core` proves natively holds here.
-    run: () =>
-      checkCommand(
-        "cargo",
-        ["run", "--locked", "--profile", "quick", "--package", "hpr-tests", "--bin", "bits_corpus", ...ON_WASM],
-        { CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUNNER: "node tests/bits/run.mjs" },
-      ),
+    run: () => cargoTest("wasm-pack", ["test", "--node", ".", "--locked", "--profile", "quick", "--test", "core"]),
   },
   {
     title: "Rust: formatting",
@@ -74,9 +69,8 @@ export const rustChecks: Check[] = [
 ];
 
 /** Runs tests and adds up the `test result:` lines of every test program. */
-async function cargoTest(...what: string[]): Promise<Outcome> {
-  const args = ["test", "--locked", "--profile", "fuzz", "--no-fail-fast", ...what];
-  const { ok, output } = await run("cargo", args, { show: "results" });
+async function cargoTest(command: "cargo" | "wasm-pack", args: string[]): Promise<Outcome> {
+  const { ok, output } = await run(command, args, { show: "results" });
   const lines = [...output.matchAll(/test result: .*?(\d+) passed; (\d+) failed/g)];
   const counts = sum(lines.map(([, passed, failed]) => ({ passed: Number(passed), failed: Number(failed) })));
   const failures = [...output.matchAll(/^test (.+) \.\.\. (?:FAILED|FAIL)$/gm)].map(([, test]) => test!);

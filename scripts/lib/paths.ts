@@ -14,12 +14,12 @@ export function inRoot(...parts: string[]): string {
 export const TSC = inRoot("node_modules/typescript-native/bin/tsc");
 
 /**
- * The environment of every command. rustup's directory comes last on the PATH, for shells that were opened before
- * rustup was installed.
+ * The environment of every command. On the PATH, the tools of this project come first. rustup's directory comes last,
+ * for shells that were opened before rustup was installed.
  */
 export function environment(extra: Record<string, string> = {}): NodeJS.ProcessEnv {
   const cargoBin = join(process.env["CARGO_HOME"] ?? join(homedir(), ".cargo"), "bin");
-  const path = [inRoot("node_modules", ".bin"), process.env["PATH"] ?? "", cargoBin];
+  const path = [inRoot("target/tools/bin"), inRoot("node_modules/.bin"), process.env["PATH"] ?? "", cargoBin];
   return { ...process.env, ...extra, PATH: path.join(delimiter) };
 }
 

@@ -3,13 +3,12 @@ import { readFileSync } from "node:fs";
 import { inRoot } from "../lib/paths.js";
 
 const CRATES_IO = "registry+https://github.com/rust-lang/crates.io-index";
-const OWN = new Set(["hidden-point-removal", "hpr", "hpr-files", "hpr-tests", "dependent", "hpr-wasm-tools"]);
+const OWN = new Set(["hidden-point-removal", "hpr", "hpr-files", "hpr-tests", "dependent"]);
 const NPM = "https://registry.npmjs.org/";
 
 /** The entries of the lock files that have no checksum or do not come from the two registries. */
 export function notLocked(): string[] {
-  const locks = ["Cargo.lock", "tools/wasm/Cargo.lock"];
-  return [...locks.flatMap(crates), ...packages()];
+  return [...crates("Cargo.lock"), ...packages()];
 }
 
 function crates(file: string): string[] {

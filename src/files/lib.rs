@@ -14,6 +14,8 @@ use columns::columns_of;
 use laz::{Chunk, Laz};
 use parts::Parts;
 use scan::{Scan, facts_of};
+#[cfg(target_family = "wasm")]
+use wasm_bindgen as _;
 
 /// Answers besides counts of rows: a part of the file is missing; the file is refused.
 const MISSING: i32 = -1;

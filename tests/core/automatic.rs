@@ -8,6 +8,7 @@ use crate::common::flip::{distance, farthest};
 use crate::common::rng::Rng;
 use crate::common::scenes::KINDS;
 use crate::common::shapes;
+use crate::test;
 
 fn automatic(points: &[[f64; 3]], viewpoint: [f64; 3]) -> (f64, f64) {
     let cloud = PointCloud::new(points).unwrap();

@@ -9,6 +9,7 @@ use crate::common::cameras::{LENSES, camera, matrix};
 use crate::common::placing::eager;
 use crate::common::rng::Rng;
 use crate::common::shapes;
+use crate::test;
 
 #[test]
 fn borders_of_the_image_belong_to_it_above_and_on_the_left() {

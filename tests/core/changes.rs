@@ -6,6 +6,7 @@ use hidden_point_removal::{ChosenRadius, NonFinite, Options, PointCloud, Positio
 use crate::common::rng::Rng;
 use crate::common::scenes::{EXTREME, KINDS};
 use crate::common::{refused, shapes};
+use crate::test;
 
 const NAN: f64 = f64::NAN;
 const FRONT: [f64; 3] = [0.0, 0.0, 5.0];

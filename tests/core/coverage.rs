@@ -5,6 +5,7 @@ use hidden_point_removal::{Inversion, Options, Placing, PointCloud};
 use crate::common::rng::Rng;
 use crate::common::shapes;
 use crate::common::{NOWHERE, refused};
+use crate::test;
 
 fn scene(seed: u64) -> (PointCloud, Vec<[f64; 3]>, Vec<f64>) {
     let mut rng = Rng::new(seed);

@@ -4,6 +4,7 @@ use hidden_point_removal::{Options, PointCloud};
 
 use crate::common::ask;
 use crate::common::flip::flip;
+use crate::test;
 
 const FRONT: [f64; 3] = [0.0, 0.0, 5.0];
 

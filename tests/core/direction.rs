@@ -5,6 +5,7 @@ use hidden_point_removal::{Exponential, Inversion, Options, PointCloud, Radius, 
 
 use crate::common::rng::Rng;
 use crate::common::{ask, refused, shapes};
+use crate::test;
 
 fn along(points: &[[f64; 3]], direction: [f64; 3], options: &Options) -> Visibility {
     let cloud = PointCloud::new(points).unwrap();

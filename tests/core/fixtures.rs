@@ -6,6 +6,7 @@ use hidden_point_removal::{Options, PointCloud};
 
 use crate::common::shapes::Points;
 use crate::common::{ask, indices_of, oracle, sectors};
+use crate::test;
 
 fn check(points: &[[f64; 3]], radius: f64, expected: &[u32]) {
     let answer = ask(points, [0.0; 3], &Options::with_radius(radius));

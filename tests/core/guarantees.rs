@@ -6,6 +6,8 @@ use hidden_point_removal::{
     Error, Exponential, Inversion, Options, PointCloud, permissible_curvature, radius_bound,
 };
 
+use crate::test;
+
 fn planar(points: &[[f64; 2]], options: &Options) -> Vec<u8> {
     let points: Vec<_> = points.iter().map(|&[x, y]| [x, y, 0.0]).collect();
     let cloud = PointCloud::new(&points).unwrap();

@@ -8,6 +8,7 @@ use crate::common::rng::Rng;
 use crate::common::scenes::Scene;
 use crate::common::structured;
 use crate::common::{refused, shapes};
+use crate::test;
 
 /// Options with numbers only, for points up to the distance of the farthest point.
 fn numbered(rng: &mut Rng, scene: &Scene) -> Option<Options> {

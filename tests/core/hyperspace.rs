@@ -7,6 +7,7 @@ use hidden_point_removal::{
 use crate::common::rng::Rng;
 use crate::common::scenes::KINDS;
 use crate::common::{ask, refused};
+use crate::test;
 
 fn asked(dimension: usize, rows: &[Vec<f64>], viewpoint: &[f64], options: &Options) -> Visibility {
     let cloud = PointCloudNd::new(dimension, &rows.concat()).unwrap();

@@ -7,6 +7,7 @@ use hidden_point_removal::{Lighting, NonFinite, Options, PointCloud};
 use crate::common::flip::distance;
 use crate::common::rng::Rng;
 use crate::common::{ask, refused, shapes};
+use crate::test;
 
 const LIGHTS: [[f64; 3]; 3] = [[0.0, 0.0, 4.0], [3.0, -2.0, 1.0], [0.0, -5.0, 0.5]];
 

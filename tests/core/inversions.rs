@@ -5,6 +5,7 @@ use hidden_point_removal::{Exponential, Inversion, Options, PointCloud, Radius};
 use crate::common::flip::farthest;
 use crate::common::rng::Rng;
 use crate::common::{ask, refused, shapes};
+use crate::test;
 
 const FRONT: [f64; 3] = [0.0, 0.0, 3.0];
 

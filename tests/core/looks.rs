@@ -9,6 +9,7 @@ use hidden_point_removal::{
 use crate::common::rng::Rng;
 use crate::common::scenes::{KINDS, Scene};
 use crate::common::{NOWHERE, ask, refused};
+use crate::test;
 
 const FRONT: [f64; 3] = [0.0, 0.0, 5.0];
 

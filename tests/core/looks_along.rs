@@ -4,6 +4,7 @@ use hidden_point_removal::{Inversion, Options, PointCloud, Radius, Visibility};
 
 use crate::common::rng::Rng;
 use crate::common::{ask, refused, shapes};
+use crate::test;
 
 fn looks(count: usize) -> Options {
     Options::with_inversion(Inversion::Looks(count)).scores(true)

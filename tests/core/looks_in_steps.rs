@@ -3,6 +3,7 @@
 use hidden_point_removal::{Inversion, Observer, Options, PointCloud, Visibility};
 
 use crate::common::scenes::KINDS;
+use crate::test;
 
 fn looks(count: usize) -> Options {
     Options::with_inversion(Inversion::Looks(count)).scores(true)

@@ -4,6 +4,7 @@ use hidden_point_removal::{Inversion, Options, PointCloud};
 
 use crate::common::rng::Rng;
 use crate::common::scanner::{Hall, Measured, Place, Scanner, fused};
+use crate::test;
 
 const LOOKS: Options = Options::with_inversion(Inversion::Looks(3));
 const LASER: Scanner = Scanner {

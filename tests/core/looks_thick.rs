@@ -4,6 +4,7 @@ use hidden_point_removal::{Inversion, Options, PointCloud, Radius, Visibility};
 
 use crate::common::refused;
 use crate::common::rng::Rng;
+use crate::test;
 
 type Place = [f64; 3];
 

@@ -4,6 +4,8 @@
 use core::f64::consts::PI;
 use hidden_point_removal::{Inversion, Options, PointCloud, Visibility};
 
+use crate::test;
+
 /// A sphere of radius 1, turned from rows of corners. Each row is turned by another angle, so
 /// that no two rows lie alike.
 fn turned(rows: usize, corners: usize) -> Vec<[f64; 3]> {

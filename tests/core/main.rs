@@ -33,7 +33,9 @@ mod radius;
 mod reconstruct;
 mod refusals;
 mod same_bits;
+#[cfg(not(target_family = "wasm"))]
 mod scanned_clouds;
+#[cfg(not(target_family = "wasm"))]
 #[path = "common/scans.rs"]
 mod scans;
 mod search;
@@ -45,3 +47,9 @@ mod thin;
 mod threads;
 mod union;
 mod within;
+
+// A file that uses this attribute runs natively and in WebAssembly.
+#[cfg(not(target_family = "wasm"))]
+use core::prelude::v1::test;
+#[cfg(target_family = "wasm")]
+use wasm_bindgen_test::wasm_bindgen_test as test;

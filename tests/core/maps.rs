@@ -7,6 +7,7 @@ use hidden_point_removal::{
 use crate::common::rng::Rng;
 use crate::common::scenes::KINDS;
 use crate::common::shapes;
+use crate::test;
 
 fn small() -> MapOptions {
     MapOptions {

@@ -7,6 +7,7 @@ use hidden_point_removal::{
 use crate::common::rng::Rng;
 use crate::common::shapes;
 use crate::common::{ask, refused};
+use crate::test;
 
 const FRONT: [f64; 3] = [0.0, 0.0, 5.0];
 

@@ -4,6 +4,7 @@ use hidden_point_removal::{Options, PointCloud, merge_visible};
 
 use crate::common::rng::Rng;
 use crate::common::{ask, refused, shapes};
+use crate::test;
 
 const FRONT: [f64; 3] = [0.0, 0.0, 3.0];
 

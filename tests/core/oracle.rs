@@ -2,6 +2,7 @@
 //! scenes. Also, the oracle compared with answers that are obvious by eye.
 
 use crate::common::oracle;
+use crate::test;
 
 /// Which of these flipped points are visible by the oracle's enumeration?
 fn enumerate<const N: usize>(q: [[f64; 3]; N]) -> [bool; N] {

@@ -8,6 +8,7 @@ use hidden_point_removal::{
 
 use crate::common::refused;
 use crate::common::rng::Rng;
+use crate::test;
 
 const HALF: [f64; 3] = [2.0, 1.5, 1.25];
 const INSIDE: [f64; 3] = [0.5, -0.3, 0.2];

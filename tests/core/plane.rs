@@ -3,6 +3,7 @@
 use hidden_point_removal::{Options, PointCloud};
 
 use crate::common::rng::Rng;
+use crate::test;
 
 #[test]
 fn large_clouds_are_answered_soon_and_alike_however_they_are_ordered() {

@@ -6,6 +6,7 @@ use crate::common::ask;
 use crate::common::flip::farthest;
 use crate::common::rng::Rng;
 use crate::common::shapes;
+use crate::test;
 
 const VIEWPOINT: [f64; 3] = [0.25, -0.5, 3.0];
 

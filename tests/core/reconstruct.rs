@@ -9,6 +9,7 @@ use crate::common::flip::{distance, flip};
 use crate::common::rng::Rng;
 use crate::common::scenes::KINDS;
 use crate::common::shapes;
+use crate::test;
 
 const FRONT: [f64; 3] = [0.0, 0.0, 3.0];
 

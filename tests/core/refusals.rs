@@ -3,6 +3,7 @@
 use hidden_point_removal::{Error, NonFinite, Options, PointCloud, Radius, Visibility};
 
 use crate::common::refused;
+use crate::test;
 
 const NAN: f64 = f64::NAN;
 const INF: f64 = f64::INFINITY;

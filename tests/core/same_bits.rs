@@ -1,5 +1,7 @@
 //! The answers of the corpus have the same bits natively as in WebAssembly, where the program itself runs.
 
+use crate::test;
+
 // It brings its own scenes and numbers: it is a program, too.
 #[allow(clippy::duplicate_mod)]
 #[path = "../bits/corpus.rs"]

@@ -8,6 +8,7 @@ use crate::common::refused;
 use crate::common::rng::Rng;
 use crate::common::scenes::Scene;
 use crate::common::shapes;
+use crate::test;
 
 #[test]
 fn single_precision_and_changed_clouds_answer_as_with_the_point_added() {

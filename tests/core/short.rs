@@ -2,6 +2,7 @@
 
 use crate::checks::CHECKS;
 use crate::common::rng::Rng;
+use crate::test;
 
 /// Asks so many scenes of a check.
 fn ask(name: &str, scenes: u64) {

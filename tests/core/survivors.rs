@@ -5,6 +5,7 @@ use hidden_point_removal::{Error, MAX_POINTS, Options, PointCloud, PointCloudNd}
 
 use crate::common::rng::Rng;
 use crate::common::{ask, shapes};
+use crate::test;
 
 /// Five points that all vote on each other. Two or three of them are visible: the nearest point on
 /// the ray along x, and the points on rays of their own. More than two fifths must be visible.

@@ -5,6 +5,7 @@ use hidden_point_removal::{Options, PointCloud, Sector};
 
 use crate::common::rng::Rng;
 use crate::common::{indices_of, proved};
+use crate::test;
 
 const START: [f64; 3] = [0.3, -0.7, 1.1];
 const ALONG: [f64; 3] = [1.7, 0.9, -2.3];

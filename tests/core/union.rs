@@ -7,6 +7,7 @@ use hidden_point_removal::{
 use crate::common::flip::distance;
 use crate::common::rng::Rng;
 use crate::common::{NOWHERE, refused, shapes};
+use crate::test;
 
 const FRONT: [f64; 3] = [0.0, 0.0, 3.0];
 

@@ -10,6 +10,7 @@ use crate::common::chosen::{alone, chosen, facts, only};
 use crate::common::rng::Rng;
 use crate::common::shapes;
 use crate::common::{NOWHERE, refused};
+use crate::test;
 
 #[test]
 fn every_option_goes_with_a_choice() {

@@ -39,9 +39,9 @@ async function sizeOf(file: string): Promise<number> {
 // COLMAP's models cost 170 to 240: their names and the numbers of their coefficients.
 // What `lite` shares with the other entries (an engine with its glue, a cloud of either wasm) costs these 70 to 250 bytes.
 it.each([
-  ["index.js", 21_000],
+  ["index.js", 21_500],
   ["worker.js", 20_450],
-  ["worker/worker-thread.js", 7850],
+  ["worker/worker-thread.js", 8400],
   // A refusal that names the kind of object and the way out costs 200 bytes.
   // Events of their own, a texture for shaders of the language's first version and maps for new nodes cost 300 to 500.
   ["three.js", 33_000],
@@ -66,10 +66,10 @@ it.each([
   expect(size).toBeLessThan(limit);
 });
 
-it("lite.js stays below 7,350 bytes, gzipped", async () => {
+it("lite.js stays below 7,800 bytes, gzipped", async () => {
   const size = await sizeOf("lite.js");
   console.log(`lite.js: ${size} bytes gzipped, ${size + gzipped(liteBytes())} with its wasm`);
-  expect(size).toBeLessThan(7350);
+  expect(size).toBeLessThan(7800);
 });
 
 it("the README says how large the main entry is", async () => {
