@@ -64,6 +64,7 @@ pub use answers::visibility_map::{MapOptions, VisibilityMap};
 pub use base::beat::{Stopped, stop_by};
 pub use base::error::Error;
 pub use base::limit::MAX_POINTS;
+pub use cloud::noise::Surface;
 pub use cloud::point_cloud::{NonFinite, PointCloud};
 pub use cloud::points::Position;
 pub use cloud::selection::Within;

@@ -1,22 +1,19 @@
 //! What one view leaves for the next one.
 
-use alloc::sync::Arc;
-
 use crate::answers::looks::{Question, Seen, Series};
 use crate::answers::visibility_map::pool::MapMemory;
 use crate::base::error::Error;
 use crate::cloud::part::Steps;
-use crate::cloud::point_cloud::{PointCloud, Survey};
+use crate::cloud::point_cloud::PointCloud;
 use crate::hull::Memory;
 
-/// The hull of the last view, looks that were begun, and what is known of noise. Its content never
-/// changes an answer, as long as it is only used for one cloud.
+/// The hull of the last view, and looks that were begun. Its content never changes an answer, as long
+/// as it is only used for one cloud.
 #[derive(Default)]
 pub(crate) struct ViewMemory {
     pub(crate) hull: Memory,
     pub(crate) maps: MapMemory,
     looks: Option<Series>,
-    survey: Option<Arc<Survey>>,
     /// The steps to the points of the last view.
     steps: Steps,
 }
@@ -28,27 +25,17 @@ impl ViewMemory {
         Self::default()
     }
 
-    /// A memory that knows only what this one knows of noise.
-    pub(crate) fn sibling(&self) -> Self {
-        Self {
-            survey: self.survey.clone(),
-            ..Self::new()
-        }
-    }
-
     /// Forgets the last view, but keeps the room for hulls.
     pub(crate) fn forget(&mut self) {
         self.hull.forget();
         self.maps = MapMemory::default();
         self.looks = None;
-        self.survey = None;
     }
 
     /// Prepares for a view of these points. Forgets the last view if it was of other points.
     pub(crate) fn see(&mut self, steps: Steps) {
         if self.steps != steps {
             self.forget();
-            self.survey = None;
             self.steps = steps;
         }
     }
@@ -62,20 +49,6 @@ impl ViewMemory {
         }
     }
 
-    /// What is known of the cloud's noise. It is the same for all viewpoints.
-    pub(crate) fn survey(
-        &mut self,
-        cloud: &PointCloud,
-        thickness: Option<f64>,
-    ) -> Result<Option<Arc<Survey>>, Error> {
-        if self.survey.is_none() || thickness == Some(0.0) {
-            let survey = cloud.noise_survey(thickness)?;
-            self.survey = survey.clone().or(self.survey.take());
-            return Ok(survey);
-        }
-        Ok(self.survey.clone())
-    }
-
     /// Does a part of the work of [`ViewMemory::look`]. The hull of the first look takes about `budget`
     /// points at once. Returns whether little more than the answer is left.
     pub(crate) fn go_on_looking(
@@ -87,7 +60,7 @@ impl ViewMemory {
         let begun = self.looks.take();
         let series = match begun.filter(|series| series.is_of(question)) {
             Some(series) => series,
-            None => Series::new(cloud, self.survey(cloud, question.thickness)?, question)?,
+            None => Series::new(cloud, question)?,
         };
         let series = self.looks.insert(series);
         let is_done = series.step(cloud, &mut self.hull, budget);

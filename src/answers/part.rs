@@ -141,7 +141,6 @@ impl PointCloud {
         }
         let count = seats.len();
         let for_each = threads / count.max(1);
-        let mut memory = ViewMemory::new();
         let part = if options.has_distance() && count > 0 {
             None
         } else {
@@ -151,7 +150,7 @@ impl PointCloud {
             }
             if looks(options)?.is_some() {
                 // For all threads.
-                memory.survey(&part, options.thickness)?;
+                part.survey(options.surface, options.thickness)?;
             }
             Some(part)
         };
@@ -164,7 +163,7 @@ impl PointCloud {
             memory.forget();
             self.seen_at(&own, for_each, memory, seat, options)
         };
-        deal(threads, count, &|| memory.sibling(), &view, pass)
+        deal(threads, count, &ViewMemory::new, &view, pass)
     }
 
     /// The view of a part of this cloud. Compiled for each kind of seat: what only viewpoints ask for needs no camera.

@@ -389,6 +389,7 @@ fn question(projection: Projection, count: usize, options: &Options) -> Question
         projection,
         count,
         with_scores: options.scores,
+        surface: options.surface,
         thickness: options.thickness,
     }
 }

@@ -28,25 +28,21 @@ const NEAR: [usize; 2] = [16, 32];
 const LOW: usize = 25;
 /// From the low percentile to the standard deviation of normal noise.
 const TO_DEVIATION: f64 = 1.15;
-/// Where scans overlap in half of a cloud, the low percentile may have no noise. This share of the
-/// median noise of single places counts, too. Clean clouds have at most 0.1, such scans 0.33.
-const WHERE_LAYERED: f64 = 0.4;
 /// A cloud is noisy if its noise is more than this, in spacings. Clean scans have up to 0.065, and
 /// registered ones 0.13 and more.
 const NOISY: f64 = 0.075;
+/// Clouds of few points on curved bodies have more at their edges: this ÷ the number of points.
+const CURVED: f64 = 100.0;
 /// Less noise counts if it is even and [alike](MEASURED). The corners of clean meshes are not. This share of the noise never counts.
 const CLEAN: f64 = 0.04;
 /// Noise is even if this ratio of a low to a very low percentile is not reached. Normal noise gives
-/// 1.29, noisy objects at most 1.57, scans that overlap 2.0 and more.
+/// 1.29, noisy objects at most 1.57, scans that overlap 1.89 and more.
 const EVEN: f64 = 1.8;
 const VERY_LOW: usize = 5;
 /// The measured noise comes nowhere near this, however large the noise is. Above 0.25 it is too small,
 /// as measured on spheres with noise of 0.1 to 2 spacings.
 const MOST: f64 = 0.56;
 const LEAST_LEFT: f64 = 0.2;
-/// Evenness is also measured on one point in so many, if this leaves at least [`LEFT`] points.
-const THINNED: usize = 10;
-const LEFT: usize = 3000;
 
 /// Neighbors of the two surroundings whose planes are compared.
 const PLANES: [usize; 2] = [8, 24];
@@ -76,24 +72,33 @@ pub(crate) struct Sample {
     pub noise: f64,
 }
 
+/// How a cloud's points lie about the surface that they sample.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Surface {
+    /// On it.
+    Clean,
+    /// As far off it everywhere, as a sensor's noise is. The planes of neighbors remove it.
+    Noisy,
+    /// In layers, as registered scans are, or rough, as plants are: no neighbor tells which point is the
+    /// surface.
+    Layered,
+}
+
 /// What a sample tells of a cloud's noise.
 pub(crate) struct Noise {
     /// Empty where the cloud has too few points.
     pub samples: Vec<Sample>,
     /// The mean spacing of the samples.
     pub spacing: f64,
-    /// The noise in spacings, whether it is noise or not.
-    pub ratio: f64,
-    /// What the noise of a noisy cloud has beyond that of clean ones, in the cloud's units; else 0.
-    pub excess: f64,
-    /// Whether a noisy cloud has the same noise everywhere.
-    pub is_even: bool,
-    /// Whether points are about as far off their planes in small surroundings as in large ones.
-    pub is_alike: bool,
-    /// What takes the place of the gap between samples where a surface was measured by a scanner.
-    pub gap: Option<f64>,
     /// The median spacing of the samples.
     pub usual: f64,
+    /// The noise in spacings, whether it is noise or not.
+    pub ratio: f64,
+    /// [`Surface::Layered`] also stands for layers that the planes of neighbors may join.
+    pub surface: Surface,
+    /// What takes the place of the gap between samples where a surface was measured by a scanner.
+    pub gap: Option<f64>,
     /// The distance from a clean surface to the next one behind or before it; else infinite.
     pub next_sheet: f64,
 }
@@ -106,55 +111,30 @@ impl Noise {
         let mut spacings = with_capacity(measured.samples.len())?;
         spacings.extend(measured.samples.iter().map(|sample| sample.spacing));
         let longest = surface::longest(&spacings)?;
-        let median = low(&spacings, 50)?;
+        let usual = low(&spacings, 50)?;
         let cut = surface::cut_off(spacings, longest);
-        let spacing = surface::mean(&cut);
-        let [small, large] = &measured.ratios;
-        let common = constant(low(small, LOW)?, low(large, LOW)?);
-        let mut constants = with_capacity(small.len())?;
-        constants.extend(measured.samples.iter().map(|sample| sample.noise));
+        let (surface, ratio) = measured.surface(points, neighbors)?;
         let mut noise = Self {
-            spacing,
-            ratio: (TO_DEVIATION * common).max(WHERE_LAYERED * low(&constants, 50)?),
-            excess: 0.0,
-            is_even: false,
-            is_alike: low(&measured.planes[0], 50)? >= MEASURED,
+            spacing: surface::mean(&cut),
+            usual,
+            ratio,
+            surface,
             gap: None,
-            usual: median,
             next_sheet: f64::INFINITY,
             samples: Vec::new(),
         };
-        let is_measured = noise.is_alike && low(&measured.planes[1], 50)? >= LEAST_OFF;
-        let is_uneven = low(&cut, 90)? >= SPREAD * median;
-        let mut looser = if is_measured && is_uneven {
-            SCANNED
-        } else {
-            1.0
+        let is_measured = measured.is_alike()? && low(&measured.planes[1], 50)? >= LEAST_OFF;
+        let is_uneven = low(&cut, 90)? >= SPREAD * usual;
+        let looser = match surface {
+            Surface::Noisy if ratio > NOISY => 1.0 + BY_NOISE * noise.deviation() / noise.spacing,
+            Surface::Layered => OVERLAPPING,
+            _ if is_measured && is_uneven => SCANNED,
+            _ => 1.0,
         };
-        let is_large = noise.ratio > NOISY;
-        if noise.ratio > CLEAN
-            && (is_large || noise.is_alike)
-            && noise.ratio * spacing < f64::INFINITY
-        {
-            let is_even = measured.is_even(points)?;
-            // The two sides of a thin sheet are no noise.
-            let is_noise =
-                (is_large || is_even) && !are_sheets(points, neighbors, &measured.samples, NOISY)?;
-            if is_noise {
-                noise.is_even = is_even;
-                noise.excess = (noise.ratio - CLEAN) * spacing;
-            }
-            if is_noise && is_large {
-                looser = if is_even {
-                    1.0 + BY_NOISE * noise.deviation() / spacing
-                } else {
-                    OVERLAPPING
-                };
-            }
-        }
-        noise.gap = Some(median / looser).filter(|_| looser > 1.0);
-        if noise.excess == 0.0 && noise.gap.is_none() {
-            noise.next_sheet = next_sheet(neighbors, &measured.samples, median)?;
+        if looser > 1.0 {
+            noise.gap = Some(usual / looser);
+        } else if surface == Surface::Clean {
+            noise.next_sheet = next_sheet(neighbors, &measured.samples, usual)?;
         }
         noise.samples = measured.samples;
         Ok(noise)
@@ -162,19 +142,22 @@ impl Noise {
 
     /// One standard deviation, in the cloud's units. It is 0 where nothing tells of noise.
     pub(crate) fn deviation(&self) -> f64 {
-        if self.excess == 0.0 {
-            return 0.0;
+        match self.surface {
+            Surface::Clean => 0.0,
+            Surface::Layered => self.ratio * self.usual,
+            Surface::Noisy => {
+                // Where noise is as large as the spacing, near points are those of like noise.
+                let share = self.ratio / MOST;
+                let share = share * share;
+                let lost = (1.0 - share * share).max(LEAST_LEFT);
+                self.ratio / square_root(lost) * self.spacing
+            }
         }
-        // Where noise is as large as the spacing, near points are those of like noise.
-        let share = self.ratio / MOST;
-        let share = share * share;
-        let lost = (1.0 - share * share).max(LEAST_LEFT);
-        self.ratio / square_root(lost) * self.spacing
     }
 
-    /// The standard deviation beyond that of clean clouds, in the cloud's units.
+    /// The noise beyond that of clean clouds, in the cloud's units.
     pub(crate) fn beyond_clean(&self) -> f64 {
-        (self.deviation() - CLEAN * self.spacing).max(0.0)
+        ((self.ratio - NOISY) * self.usual).max(0.0)
     }
 }
 
@@ -257,22 +240,39 @@ impl Measured {
         })
     }
 
-    /// Whether the noise of these points is the same everywhere, as that of a sensor is. Registered
-    /// scans lie beside each other only where they overlap.
-    fn is_even(&self, points: &Points) -> Result<bool, OutOfMemory> {
-        let mut unevenness = self.unevenness()?;
-        // Where noise is as large as the spacing, neighborhoods are round. Fewer points show layers.
-        let step = (points.len() / LEFT).min(THINNED);
-        if step > 1 {
-            let mut places = with_capacity(points.len() / step + 1)?;
-            places.extend((0..points.len() as u32).step_by(step));
-            let thinned = {
-                let points = points.gathered(&places)?;
-                Self::of(&points, &Neighbors::new(&points)?)?.unevenness()?
-            };
-            unevenness = unevenness.max(thinned);
+    /// What the cloud is, and its noise in spacings. A sensor's noise is the same everywhere. Registered
+    /// scans lie beside each other only where they overlap, and what is rough is so in places: there the
+    /// median counts.
+    fn surface(
+        &self,
+        points: &Points,
+        neighbors: &Neighbors,
+    ) -> Result<(Surface, f64), OutOfMemory> {
+        let [small, large] = &self.ratios;
+        let everywhere = TO_DEVIATION * constant(low(small, LOW)?, low(large, LOW)?);
+        let mut constants = with_capacity(self.samples.len())?;
+        constants.extend(self.samples.iter().map(|sample| sample.noise));
+        let in_places = TO_DEVIATION * low(&constants, 50)?;
+        let (surface, ratio, is_noise) = if self.unevenness()? < EVEN {
+            let least = if self.is_alike()? { CLEAN } else { NOISY };
+            (Surface::Noisy, everywhere, everywhere > least)
+        } else {
+            let least = NOISY + CURVED / points.len() as f64;
+            (Surface::Layered, in_places, in_places > least)
+        };
+        if is_noise
+            && ratio < f64::INFINITY
+            && !are_sheets(points, neighbors, &self.samples, NOISY)?
+        {
+            Ok((surface, ratio))
+        } else {
+            Ok((Surface::Clean, ratio))
         }
-        Ok(unevenness < EVEN)
+    }
+
+    /// Whether points are about as far off their planes in small surroundings as in large ones.
+    fn is_alike(&self) -> Result<bool, OutOfMemory> {
+        Ok(low(&self.planes[0], 50)? >= MEASURED)
     }
 
     /// The low percentile of the distances ÷ the very low one, in spacings or in units, whichever

@@ -10,7 +10,7 @@ use crate::base::allocation::{OutOfMemory, filled};
 use crate::base::error::Error;
 use crate::base::once::Once;
 use crate::cloud::blocks::Blocks;
-use crate::cloud::noise::Noise;
+use crate::cloud::noise::{Noise, Surface};
 use crate::cloud::part::KeptParts;
 use crate::cloud::points::{Given, Points, Position, checked_len, is_finite};
 use crate::cloud::sequence::Sequence;
@@ -59,16 +59,20 @@ pub(crate) struct Kept {
     pub voters: Option<Voters>,
     pub statistics: Once<Statistics>,
     pub noise: Once<Arc<Noise>>,
-    pub survey: Once<Arc<Survey>>,
+    pub surface: Once<Surface>,
+    pub smooth: Once<Arc<Smooth>>,
     /// The cloud of the points that a mask marks, with one byte for each index.
     #[cfg(feature = "lite")]
     pub masked: Option<(Vec<u8>, Box<PointCloud>)>,
 }
 
-/// The noise of a cloud, and the cloud without it where noise is even.
+/// What looks know of a cloud before they look.
+#[derive(Clone)]
 pub(crate) struct Survey {
     pub noise: Arc<Noise>,
-    pub smooth: Option<Smooth>,
+    pub surface: Surface,
+    /// The cloud without its noise, if the looks are at that.
+    pub smooth: Option<Arc<Smooth>>,
 }
 
 /// A cloud whose points moved to the planes of their neighbors.

@@ -1,6 +1,7 @@
 //! The options of one view.
 
 use crate::base::error::Error;
+use crate::cloud::noise::Surface;
 use crate::cloud::part::{Step, Steps};
 use crate::cloud::selection::Within;
 
@@ -100,6 +101,9 @@ pub struct Options {
     /// ([`PointCloud::noise`](crate::PointCloud::noise)), and even noise is removed before the view,
     /// as with `denoise`. 0 stands for a surface without thickness.
     pub thickness: Option<f64>,
+    /// With [`Inversion::Looks`]: what the cloud is. By default it is what
+    /// [`PointCloud::surface`](crate::PointCloud::surface) finds; with a number as thickness, points do not move.
+    pub surface: Option<Surface>,
     /// Whether to give an early answer. It contains all visible points, with the same radius,
     /// and some hidden points. Points that it leaves out are certainly hidden. It takes about
     /// half of the time. With an [`Observer`](crate::Observer), the same view without `draft`
@@ -168,6 +172,7 @@ impl Options {
         vote: None,
         scores: false,
         thickness: None,
+        surface: None,
         draft: false,
         sample: None,
         within: None,
@@ -228,6 +233,13 @@ impl Options {
     pub fn thickness(self, thickness: impl Into<Option<f64>>) -> Self {
         let thickness = thickness.into();
         Self { thickness, ..self }
+    }
+
+    /// These options with [`Options::surface`].
+    #[must_use]
+    pub fn surface(self, surface: impl Into<Option<Surface>>) -> Self {
+        let surface = surface.into();
+        Self { surface, ..self }
     }
 
     /// These options with or without [`Options::draft`].

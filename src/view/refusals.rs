@@ -66,6 +66,10 @@ const THICKNESS: Feature = Feature {
     name: "thickness",
     is_in: |options| options.thickness.is_some(),
 };
+const SURFACE: Feature = Feature {
+    name: "surface",
+    is_in: |options| options.surface.is_some(),
+};
 const DRAFT: Feature = Feature {
     name: "draft",
     is_in: |options| options.draft,
@@ -92,10 +96,11 @@ const VOTE: Feature = Feature {
 };
 
 /// Each option with those that it excludes, for every question.
-const OPTIONS: [(Feature, &[Feature]); 8] = [
+const OPTIONS: [(Feature, &[Feature]); 9] = [
     (LOOKS, &[SEARCH, OPPOSITE, RADIUS, EXPONENT, DRAFT]),
     (SCORES, &[ONE_HULL]),
     (THICKNESS, &[ONE_HULL]),
+    (SURFACE, &[ONE_HULL]),
     (SEARCH, &[POWER, EXPONENTIAL]),
     (OPPOSITE, &[POWER, EXPONENTIAL]),
     (RADIUS, &[EXPONENTIAL]),

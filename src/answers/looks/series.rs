@@ -1,6 +1,5 @@
 //! The looks of one view, step by step, so that a viewer can give them up when its camera moves.
 
-use alloc::sync::Arc;
 use glam::DVec3;
 
 use crate::answers::looks::followers::follow;
@@ -11,7 +10,7 @@ use crate::answers::looks::tuning::Tuning;
 use crate::base::allocation::OutOfMemory;
 use crate::base::error::Error;
 use crate::base::real::power_of_two_below;
-use crate::cloud::noise::Noise;
+use crate::cloud::noise::{Noise, Surface};
 use crate::cloud::point_cloud::{PointCloud, Smooth, Survey};
 use crate::cloud::points::Points;
 use crate::cloud::statistics::Statistics;
@@ -93,13 +92,14 @@ pub(crate) struct Question {
     pub projection: Projection,
     pub count: usize,
     pub with_scores: bool,
+    pub surface: Option<Surface>,
     pub thickness: Option<f64>,
 }
 
 /// Looks that may not all be taken yet.
 pub(crate) struct Series {
     question: Question,
-    survey: Option<Arc<Survey>>,
+    survey: Option<Survey>,
     tuning: Tuning,
     farthest: f64,
     verdicts: Verdicts,
@@ -115,15 +115,12 @@ pub(crate) struct Series {
 
 impl Series {
     /// A viewpoint is checked here.
-    pub(crate) fn new(
-        cloud: &PointCloud,
-        survey: Option<Arc<Survey>>,
-        question: Question,
-    ) -> Result<Self, Error> {
+    pub(crate) fn new(cloud: &PointCloud, question: Question) -> Result<Self, Error> {
         if let Projection::Perspective(viewpoint) = question.projection {
             check_viewpoint(viewpoint)?;
         }
-        let cloud = looked_at(&survey, question.thickness, cloud);
+        let survey = cloud.survey(question.surface, question.thickness)?;
+        let cloud = looked_at(&survey, cloud);
         let farthest = match question.projection {
             Projection::Perspective(viewpoint) => {
                 let points = &cloud.sequence.points;
@@ -134,7 +131,7 @@ impl Series {
         let tuning = Tuning::of(
             question.projection,
             cloud,
-            survey.as_deref(),
+            survey.as_ref(),
             question.thickness,
             farthest,
         )?;
@@ -165,7 +162,7 @@ impl Series {
         budget: usize,
     ) -> Result<bool, Error> {
         let survey = self.survey.clone();
-        let cloud = looked_at(&survey, self.question.thickness, cloud);
+        let cloud = looked_at(&survey, cloud);
         let count = self.question.count;
         if self.next >= count {
             // In one plane with the viewpoint, neighbors on a ray see different things.
@@ -278,7 +275,7 @@ impl Series {
     pub(crate) fn finish(self, cloud: &PointCloud) -> Result<Seen, Error> {
         let mut seen = self.verdicts.finish()?;
         seen.scales = scales_of(self.question.count, &self.tuning);
-        match smooth(&self.survey, self.question.thickness) {
+        match smooth(&self.survey) {
             Some(smooth) => smooth.back(seen, cloud),
             None => Ok(seen),
         }
@@ -286,18 +283,13 @@ impl Series {
 }
 
 /// The points without noise, if they are looked at.
-fn smooth(survey: &Option<Arc<Survey>>, thickness: Option<f64>) -> Option<&Smooth> {
-    let survey = survey.as_ref().filter(|_| thickness.is_none());
-    survey.and_then(|survey| survey.smooth.as_ref())
+fn smooth(survey: &Option<Survey>) -> Option<&Smooth> {
+    survey.as_ref()?.smooth.as_deref()
 }
 
 /// The cloud at which the looks are.
-pub(crate) fn looked_at<'a>(
-    survey: &'a Option<Arc<Survey>>,
-    thickness: Option<f64>,
-    cloud: &'a PointCloud,
-) -> &'a PointCloud {
-    smooth(survey, thickness).map_or(cloud, |smooth| &smooth.cloud)
+pub(crate) fn looked_at<'a>(survey: &'a Option<Survey>, cloud: &'a PointCloud) -> &'a PointCloud {
+    smooth(survey).map_or(cloud, |smooth| &smooth.cloud)
 }
 
 /// How a step ends.

@@ -16,42 +16,23 @@ use crate::base::allocation::{OutOfMemory, filled, with_capacity};
 use crate::base::error::Error;
 use crate::base::sort::percentile;
 use crate::cloud::neighbors::{Nearest, Neighbors};
-use crate::cloud::noise::Noise;
+use crate::cloud::noise::{Noise, Surface};
 use crate::cloud::point_cloud::{PointCloud, Smooth, Survey};
 use crate::cloud::quadric::off_quadric;
 use crate::cloud::statistics::{mean_distance, sampled_place};
 
 /// How many neighbors make the plane to which a point moves.
 const NEIGHBORS: usize = 32;
-/// Points move until their noise is at most this, in spacings, and at most so often. The first number is
-/// for even noise. Layers are still beside each other where they have as much left.
-const CLEAN: [f64; 2] = [0.04, 0.025];
+/// Points move until their noise is at most this, in spacings, and at most so often.
+const CLEAN: f64 = 0.04;
 const PASSES: usize = 3;
-/// Moving points joins layers if, at this percentile of so many places, points lie at most so far
-/// off their surface afterwards, in spacings: 0.24 and 0.4 in registered rooms. It does so, too, where
-/// large surroundings are farther off their planes than small ones: objects whose scans are a spacing
-/// off have 0.54 to 0.58, the rooms 0.65. A street has 0.19 and 0.59, but 10 times the lower
-/// percentile: where most places are smooth and some are not, layers are left.
+/// Moving points joins layers if, at this percentile of so many places, they lie off their surface afterwards by at most this
+/// share of the noise: by 0.12 to 0.31 in objects whose scans are up to half a spacing off, by 0.42 and more in registered rooms and streets.
 const HIGH: usize = 75;
-const LOW: usize = 25;
 const PLACES: usize = 512;
-const JOINED: f64 = 0.2;
-const LAYERED: f64 = 6.0;
+const JOINED: f64 = 0.36;
 /// How many of the nearest points tell of the surface at a place.
 const AROUND: usize = 16;
-
-impl Survey {
-    pub(crate) fn of(cloud: &PointCloud) -> Result<Self, Error> {
-        let noise = cloud.known_noise()?;
-        let is_noisy = noise.excess > 0.0;
-        let smooth = if is_noisy && (noise.is_even || are_joined(cloud, &noise)?) {
-            Some(Smooth::of(cloud, CLEAN[usize::from(!noise.is_even)])?)
-        } else {
-            None
-        };
-        Ok(Self { noise, smooth })
-    }
-}
 
 /// Whether moved points lie in one surface.
 #[inline(never)]
@@ -81,20 +62,18 @@ fn are_joined(cloud: &PointCloud, noise: &Noise) -> Result<bool, OutOfMemory> {
             off.push(deviation);
         }
     }
-    let [low, high] = [LOW, HIGH].map(|percent| percentile(&off, percent));
-    let (Some(low), Some(high)) = (low?, high?) else {
-        return Ok(false);
-    };
-    Ok((high < JOINED || !noise.is_alike) && high < LAYERED * low)
+    Ok(percentile(&off, HIGH)?.is_some_and(|high| high < JOINED * noise.ratio))
 }
 
 impl Smooth {
-    fn of(cloud: &PointCloud, clean: f64) -> Result<Self, Error> {
-        let mut moved = cloud.denoised(NEIGHBORS)?;
+    fn of(cloud: &PointCloud) -> Result<Self, Error> {
+        let most = cloud.sequence.points.len().saturating_sub(1);
+        let neighbors = NEIGHBORS.min(most).max(1);
+        let mut moved = cloud.denoised(neighbors)?;
         let mut noise = Noise::of(&moved.sequence.points)?;
         for _ in 1..PASSES {
-            if noise.ratio > clean {
-                moved = moved.denoised(NEIGHBORS)?;
+            if noise.ratio > CLEAN {
+                moved = moved.denoised(neighbors)?;
                 noise = Noise::of(&moved.sequence.points)?;
             }
         }
@@ -137,15 +116,52 @@ impl PointCloud {
         Ok(self.known_noise()?.deviation())
     }
 
-    /// What looks with this thickness know of the cloud, if they need it.
-    pub(crate) fn noise_survey(
+    /// How the points lie about the surface that they sample, as looks take them. [`Options::surface`]
+    /// overrides it.
+    ///
+    /// [`Options::surface`]: crate::Options::surface
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`].
+    pub fn surface(&self) -> Result<Surface, Error> {
+        let measure = || {
+            let noise = self.known_noise()?;
+            let is_joined = noise.surface == Surface::Layered && are_joined(self, &noise)?;
+            Ok(if is_joined {
+                Surface::Noisy
+            } else {
+                noise.surface
+            })
+        };
+        self.kept.surface.get(measure)
+    }
+
+    /// What looks with this surface and thickness know of the cloud, if they need it.
+    pub(crate) fn survey(
         &self,
+        surface: Option<Surface>,
         thickness: Option<f64>,
-    ) -> Result<Option<Arc<Survey>>, Error> {
-        if thickness == Some(0.0) {
+    ) -> Result<Option<Survey>, Error> {
+        // A cloud without thickness that nobody asked to smooth is taken as it is.
+        if thickness == Some(0.0) && surface.is_none() {
             return Ok(None);
         }
-        let measure = || Survey::of(self).map(Arc::new);
-        self.kept.survey.get(measure).map(Some)
+        let noise = self.known_noise()?;
+        let surface = match (surface, thickness) {
+            (Some(surface), _) => surface,
+            (None, Some(_)) => Surface::Layered,
+            (None, None) => self.surface()?,
+        };
+        let can_move = self.sequence.points.len() > 1;
+        let smooth = if surface == Surface::Noisy && can_move {
+            Some(self.kept.smooth.get(|| Smooth::of(self).map(Arc::new))?)
+        } else {
+            None
+        };
+        Ok(Some(Survey {
+            noise,
+            surface,
+            smooth,
+        }))
     }
 }

@@ -15,7 +15,7 @@ use crate::answers::looks::rays::{Projection, Ray, Rays};
 use crate::base::allocation::{OutOfMemory, with_capacity};
 use crate::base::real::{larger, square_root};
 use crate::base::sort::percentile;
-use crate::cloud::noise::Noise;
+use crate::cloud::noise::{Noise, Surface};
 use crate::cloud::point_cloud::{PointCloud, Survey};
 use crate::cloud::points::Points;
 use crate::cloud::statistics::Statistics;
@@ -24,13 +24,12 @@ use crate::flip::kernel::Kernel;
 /// The scale c of each look as a share of the cloud's spacing × widening, from tight to loose. Two
 /// looks leave out the middle one. Twice or half of any of these values changes the error little.
 const SHARES: [f64; 3] = [0.28, 0.07, 0.02];
-/// The thickness of a surface in standard deviations of its noise, beyond what clean clouds have.
-/// Errors on registered scans change little between 8 and 12.
-const THICKNESS: f64 = 10.0;
-/// How far beside a ray a visible point may be to show a point, and how much nearer, in lengths of
-/// the noise as measured, beyond what clean clouds have.
-const ASIDE: f64 = 20.0;
-const NEARER: f64 = 4.0;
+/// The thickness of layers in standard deviations beyond what clean clouds have. Errors on registered scans
+/// change little between 8 and 16.
+const LAYERS: f64 = 14.0;
+/// How far beside a ray a visible point may be to show a point, and how much nearer, as shares of the thickness.
+const ASIDE: f64 = 2.0;
+const NEARER: f64 = 0.4;
 /// Spacing grows with range if its power, times what that explains, is above this; clean surfaces
 /// have 0.1 from inside. It has its full effect from the second number on. The widening of a scan in
 /// rings is about 20, so hulls are 50 times looser then. The effect grows with the square of the way
@@ -43,7 +42,7 @@ const AWAY: [f64; 2] = [0.5, 0.05];
 const NEAR: f64 = 10.0;
 /// How much looser hulls are with a thickness, and by how many powers of two with range.
 const LOOSER: f64 = 0.5;
-const LOOSER_BY_RANGE: f64 = 5.0;
+const LOOSER_BY_RANGE: f64 = 4.0;
 const COSINE_POWER: f64 = 3.5;
 /// Points that were moved lie so near their surface that hulls may have vertices behind it: the widest
 /// ring of a vertex shrinks by this. Errors are the same with twice as much.
@@ -88,14 +87,20 @@ impl Tuning {
             return Ok(Self::plain(statistics, &*cloud.known_noise()?));
         };
         let measured: &Noise = &survey.noise;
-        let (noise, thickness, excess) = match (&survey.smooth, given) {
-            (_, Some(thickness)) => (measured, thickness, thickness / THICKNESS),
-            (Some(smooth), None) => (&smooth.noise, 0.0, 0.0),
-            (None, None) => {
-                let thickness = THICKNESS * measured.beyond_clean();
-                (measured, thickness, measured.excess)
-            }
+        // Moved points have their own noise.
+        let noise = survey
+            .smooth
+            .as_ref()
+            .map_or(measured, |smooth| &smooth.noise);
+        let is_moved = survey.smooth.is_some();
+        let is_layered = survey.surface == Surface::Layered;
+        let of_layers = if is_layered {
+            LAYERS * measured.beyond_clean()
+        } else {
+            0.0
         };
+        let thickness = given.unwrap_or(of_layers);
+        let is_thick = is_layered || thickness > 0.0;
         let range = match projection {
             Projection::Perspective(viewpoint) => Some(Range {
                 noise,
@@ -108,14 +113,12 @@ impl Tuning {
             Some(range) => range.growth(&cloud.sequence.points)?,
             None => (0.0, 0.0),
         };
-        let is_thick = thickness > 0.0;
-        let is_moved = survey.smooth.is_some() && given.is_none();
         let odds = Odds::of(
             !is_moved && measured.gap.is_some(),
             if is_moved { measured.ratio } else { 0.0 },
             growth,
-            if excess > 0.0 {
-                excess / statistics.spacing
+            if thickness > 0.0 {
+                thickness / (LAYERS * statistics.spacing)
             } else {
                 0.0
             },
@@ -147,8 +150,8 @@ impl Tuning {
             },
             wide,
             thickness,
-            aside: ASIDE * excess,
-            nearer: NEARER * excess,
+            aside: ASIDE * thickness,
+            nearer: NEARER * thickness,
             odds,
         })
     }

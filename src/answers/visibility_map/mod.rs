@@ -112,9 +112,9 @@ impl PointCloud {
         let is_look = looks(options)?.is_some();
         let mut survey = None;
         if is_look {
-            survey = memory.survey(self, options.thickness)?;
+            survey = self.survey(options.surface, options.thickness)?;
         }
-        let source = looked_at(&survey, options.thickness, self);
+        let source = looked_at(&survey, self);
         let MapMemory { hull, pool } = &mut memory.maps;
         let is_smooth = !core::ptr::eq(source, self);
         let points = &source.sequence.points;
@@ -134,7 +134,7 @@ impl PointCloud {
         let (flip, depth, farthest) = match view {
             None => {
                 let apart = square_root(stands_for);
-                look_of_map(self, survey.as_deref(), viewpoint, options.thickness, apart)?
+                look_of_map(self, survey.as_ref(), viewpoint, options.thickness, apart)?
             }
             Some(view) => (view.flip, Depth::default(), view.farthest),
         };
