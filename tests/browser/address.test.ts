@@ -12,7 +12,6 @@ import {
   reached,
   refiltered,
   served,
-  serveSmallDragon,
   settled,
   status,
 } from "./support.js";
@@ -59,9 +58,8 @@ test("?src opens a file from the web", async () => {
 });
 
 test("a plain sentence names each parameter of the address that cannot be met", async () => {
-  serveSmallDragon();
   const page = await openReady("?sample=unicorn&exponent=-1&view=1,2");
-  expect(await page.locator("#sample").inputValue()).toBe("dragon_res2");
+  expect(await page.locator("#sample").inputValue()).toBe("room");
   const message = await page.locator("#message").textContent();
   for (const part of [/no sample called “unicorn”/, /exponent .* is not a number/, /view .* is not three numbers/]) {
     expect(message).toMatch(part);

@@ -3,16 +3,7 @@ import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
 import { asciiPly, ball } from "./clouds.js";
 import { choose } from "./files.js";
-import {
-  addressWritten,
-  openPage,
-  openReady,
-  provoke,
-  reached,
-  serveSmallDragon,
-  status,
-  upToDate,
-} from "./support.js";
+import { addressWritten, openPage, openReady, provoke, reached, status, upToDate } from "./support.js";
 
 /** The page as a stranger finds it. */
 const withoutTools = async (page: Page) => {
@@ -109,10 +100,9 @@ test("Unfreeze looks at the present cloud, and not at the place where another on
   expect([address.get("freeze"), address.get("view"), address.get("target")]).toEqual([null, null, null]);
 });
 
-test.for(["assets/session-*.js", "samples/*"])(
+test.for(["assets/session-*.js", "assets/living-room-*.js"])(
   "who clicks before %s is there sees a still picture, divided in the middle",
   async (late) => {
-    serveSmallDragon();
     const page = await openPage("", { reducedMotion: "no-preference" }, async (opened) => {
       await withoutTools(opened);
       await opened.route(`**/${late}`, async (route) => {

@@ -11,7 +11,6 @@ import {
   PHONE,
   reached,
   served,
-  serveSmallDragon,
   status,
   upToDate,
 } from "./support.js";
@@ -49,10 +48,10 @@ test("a stranger sees the cloud turn, a line sweep over it, a caption with its n
   await expect
     .poll(
       async () =>
-        (await caption(page)) === `100,000 points. ${round((await status(page)).visible)} can be seen from here.`,
+        (await caption(page)) === `300,000 points. ${round((await status(page)).visible)} can be seen from here.`,
     )
     .toBe(true);
-  expect((await status(page)).total).toBe(100_250);
+  expect((await status(page)).total).toBe(300_000);
   expect(await controls(page)).toBeLessThanOrEqual(16);
   expect(await page.locator("#panel").evaluate((panel) => panel.getBoundingClientRect().width)).toBeLessThan(2);
   // It goes on turning, and maps draw it.
@@ -103,7 +102,6 @@ test("the two halves differ in a quarter of the body's pixels or more, in both t
 });
 
 test("with reduced motion nothing turns, and the line stands in the middle at once", async () => {
-  serveSmallDragon();
   const page = await openReady("", {}, stranger);
   const { viewpoint } = await status(page);
   await page.locator("#divider").waitFor();
@@ -117,7 +115,6 @@ test("the address says whether the picture turns", async () => {
   await reached(page, "ready");
   const { viewpoint } = await status(page);
   await expect.poll(async () => (await status(page)).viewpoint).not.toEqual(viewpoint);
-  serveSmallDragon();
   const still = await openReady("?turn=0", MOVING);
   const before = (await status(still)).viewpoint;
   await still.waitForTimeout(400);
@@ -164,18 +161,57 @@ test("the drawer has the tools, and this device remembers it", async () => {
   expect(await page.evaluate(() => localStorage.getItem("hidden-point-removal: tools"))).toBe("closed");
   await page.getByRole("button", { name: "Tools", exact: true }).click();
   expect(await page.locator("#tool-bar").isVisible()).toBe(true);
-  await page.getByRole("radio", { name: "Touching" }).check();
-  expect(Number((await addressWritten(page)).get("size"))).toBeGreaterThan(1);
-  await page.getByRole("radio", { name: "Small" }).check();
-  expect((await addressWritten(page)).has("size")).toBe(false);
 });
 
-test("on a phone the picture keeps 70 % of the height", async () => {
-  serveSmallDragon();
-  const page = await openReady("", PHONE, stranger);
-  const top = await page.locator("#caption").evaluate((element) => element.getBoundingClientRect().top);
-  expect(top / 844).toBeGreaterThan(0.7);
-  expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBeLessThanOrEqual(390);
+test("at every size the page says in one sentence what it is for whom, and the picture keeps its height", async () => {
+  const page = await openReady("", { ...PHONE, viewport: { width: 1440, height: 900 } }, stranger);
+  for (const [width, height, share] of [
+    [1440, 900, 0.8],
+    [1280, 720, 0.75],
+    [390, 844, 0.7],
+    [640, 360, 0.5],
+  ] as const) {
+    await page.setViewportSize({ width, height });
+    const top = await page.locator("#caption").evaluate((element) => element.getBoundingClientRect().top);
+    expect(top / height, `${width} × ${height}`).toBeGreaterThan(share);
+    expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBeLessThanOrEqual(width);
+    const { x, y, width: wide, height: high } = (await page.locator("#name").boundingBox())!;
+    const corner = (await page.locator("#drawer").boundingBox())!;
+    expect(Math.min(x, y)).toBeGreaterThanOrEqual(0);
+    expect(x + wide).toBeLessThanOrEqual(corner.x);
+    expect(y + high).toBeLessThan(0.5 * top);
+  }
+  expect(await page.locator("#name").innerText()).toMatch(/^Hidden-point removal finds which points of a scan/);
+});
+
+test("in the first picture, the wall is solid where hidden points are gone, and lets the room through where not", async () => {
+  const page = await openReady(
+    "?turn=0&compare=0",
+    { ...EVERY_PIXEL, viewport: { width: 1280, height: 720 } },
+    stranger,
+  );
+  await addStyle(page, "#divider { opacity: 0 } #compare-note, #verbs, #name, #drawer, #signs { visibility: hidden }");
+  for (const colorScheme of ["dark", "light"] as const) {
+    await page.emulateMedia({ colorScheme });
+    const gaps: number[] = [];
+    for (const end of ["Home", "End"]) {
+      await page.locator("#divider").focus();
+      await page.keyboard.press(end);
+      await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
+      const { width, data } = await pixelsOf(await page.locator("#view").screenshot());
+      // The background is in the corner. The wall is left of the middle.
+      let empty = 0;
+      for (let y = 200; y < 400; y++) {
+        for (let x = 300; x < 500; x++) {
+          const at = 4 * (y * width + x);
+          if ([0, 1, 2].every((channel) => Math.abs(data[at + channel]! - data[channel]!) < 8)) empty++;
+        }
+      }
+      gaps.push(empty / 40_000);
+    }
+    expect(gaps[0], `${colorScheme}: visible points`).toBeLessThan(0.005);
+    expect(gaps[1], `${colorScheme}: all points`).toBeGreaterThan(0.2);
+  }
 });
 
 test("one stray point does not make the cloud a dot, and Show all shows it", async () => {

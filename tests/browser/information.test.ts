@@ -53,8 +53,8 @@ test("a file without a coordinate system says so, and its lengths have no unit",
   expect(rows["Size"]).toMatch(/units$/);
 
   // Another cloud has other information.
-  await page.locator("#sample").selectOption("rings");
-  await expect.poll(() => page.locator("#info").textContent()).toContain("File rings");
+  await page.locator("#sample").selectOption("bunny");
+  await expect.poll(() => page.locator("#info").textContent()).toContain("File bunny");
 });
 
 test("the scale bar is as long as it says, follows the zoom, and is in the saved picture's marks", async () => {

@@ -1,16 +1,6 @@
 import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
-import {
-  openPage,
-  openReady,
-  PHONE,
-  reached,
-  refiltered,
-  serveSmallDragon,
-  settled,
-  status,
-  unfold,
-} from "./support.js";
+import { openPage, openReady, PHONE, reached, refiltered, settled, status, unfold } from "./support.js";
 
 /** Visible controls and texts that overlap, are cut off at the side, or have no name. */
 async function flaws(page: Page): Promise<string[]> {
@@ -113,7 +103,6 @@ test("on a phone the panel is a bar that opens upwards, nothing overlaps, and on
 });
 
 test("a message fits a phone", async () => {
-  serveSmallDragon();
   const page = await openReady("?sample=unicorn", PHONE);
   expect(await page.locator("#message").isVisible()).toBe(true);
   await expectNoFlaws(page);

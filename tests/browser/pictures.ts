@@ -41,7 +41,7 @@ const nothing = () => Promise.resolve();
 /** The picture of the README: few and small points, so that the back shines through the front, and visible points. */
 const SIZE = { width: 470, height: 384 };
 const halves = await Promise.all(
-  ["compare=1&size=0.5", "size=2"].map((look) =>
+  ["compare=1", "compare=0"].map((look) =>
     shot(`?sample=dragon_res3&fov=42&${look}`, { viewport: SIZE }, nothing, hideControls),
   ),
 );

@@ -7,7 +7,6 @@ import { oracleFor } from "../../www/compare/oracles.js";
 import { Projected, zBuffer } from "../../www/compare/zbuffer.js";
 import { make as makeRoom } from "../../www/samples/living-room.js";
 import { grid, type Mesh } from "../../www/samples/mesh.js";
-import { make as makeRings, skinOfRings } from "../../www/samples/rings.js";
 import { RayTracer } from "../fidelity/rays.js";
 import { errorsOf } from "../fidelity/score.js";
 import { asciiPly, ball } from "./clouds.js";
@@ -74,17 +73,6 @@ test.for([1, 2, 3, 4, 9, 24])("the z-buffer agrees with its definition (splats o
   }
 });
 
-test("the airplane's skin is closed: each edge has two triangles", () => {
-  const triangles = skinOfRings();
-  const edges = new Map<string, number>();
-  for (let i = 0; i < triangles.length; i++) {
-    const pair = [triangles[i]!, triangles[i % 3 === 2 ? i - 2 : i + 1]!].sort((a, b) => a - b).join();
-    edges.set(pair, (edges.get(pair) ?? 0) + 1);
-  }
-  expect([...edges.values()].every((count) => count === 2)).toBe(true);
-  expect(new Set(triangles).size).toBe(makeRings().positions.length / 3);
-});
-
 test("the scanner of the street sees all points that its own beams met", async () => {
   const street = await oracleFor({ sample: "street" }, new Float32Array());
   const sees = street.from([-21, 1.1, 1.75]);
@@ -98,7 +86,7 @@ test("the scanner of the street sees all points that its own beams met", async (
   expect(share).toBeLessThan(0.8);
 });
 
-test("in the room the ceiling is seen and the floor under the rug is hidden, also with noise", async () => {
+test("in the room the ceiling is seen, and no points lie under the rug or behind the pictures, where no scanner could tell", async () => {
   const room = await oracleFor({ sample: "room" }, new Float32Array());
   const { positions } = makeRoom();
   expect(room.count).toBe(positions.length / 3);
@@ -113,7 +101,12 @@ test("in the room the ceiling is seen and the floor under the rug is hidden, als
   };
   // The bookcase, the lamp and the plant hide small parts of the ceiling.
   expect(share((_x, y) => y > 2.69)).toBeGreaterThan(0.97);
-  expect(share((x, y, z) => y < 0.004 && x > -1.99 && x < 0.59 && z > -1.09 && z < 0.79)).toBe(0);
+  const among = (like: (x: number, y: number, z: number) => boolean) =>
+    Array.from({ length: room.count }, (_, i) => i).filter((i) =>
+      like(positions[3 * i]!, positions[3 * i + 1]!, positions[3 * i + 2]!),
+    ).length;
+  expect(among((x, y, z) => y < 0.004 && x > -1.99 && x < 0.59 && z > -1.09 && z < 0.79)).toBe(0);
+  expect(among((x, y, z) => x < -2.994 && y > 1.36 && y < 1.94 && z > -0.49 && z < 0.39)).toBe(0);
 });
 
 /** Opens the judgment. Returns the shares in its table, row by row. */

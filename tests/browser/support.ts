@@ -1,11 +1,9 @@
 import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
-import { join } from "node:path";
 import { gunzipSync } from "node:zlib";
 import { init, PointCloud, type VisibilityOptions } from "hidden-point-removal";
 import type { BrowserContextOptions, Page } from "playwright-core";
 import { expect } from "vitest";
-import { root } from "../root.js";
 import { newContext } from "./browser.js";
 import { servePage } from "./site.js";
 
@@ -19,11 +17,6 @@ const pages: Page[] = [];
 /** Files of the site besides the page, by name. Each test file begins without any. */
 export const served = new Map<string, Uint8Array>();
 export const site = await servePage(served);
-
-/** Lets the first sample of the page have 5,205 points. It is for tests about other things than its size. */
-export function serveSmallDragon(): void {
-  served.set("samples/dragon_res2.bin", readFileSync(join(root, "www/dist/samples/dragon_res4.bin")));
-}
 
 /** Waits until the address has everything: it is written 300 ms after the last change, which a frame may notice late. */
 export async function addressWritten(page: Page): Promise<URLSearchParams> {

@@ -1,4 +1,4 @@
-// Figures 2, 9, 10 and 11 of the paper: all points, and the visible points.
+// Figures 2, 9 and 10 of the paper: all points, and the visible points.
 import { bunny36k } from "../bench/clouds.js";
 import { count, type Figure, from, type Maker, PANEL, radiusOf, sheet, small } from "./figure.js";
 import { pointPly } from "./ply.js";
@@ -9,8 +9,6 @@ interface Pair {
   title: string;
   look: string;
   query: Query;
-  /** Point sizes. Before: small, so that the far side shows through. After: large, so that the surface is closed. */
-  sizes: [number, number];
 }
 
 export const beforeAfter: Maker = async (studio) => [
@@ -20,21 +18,12 @@ export const beforeAfter: Maker = async (studio) => [
     title: "Dense: the dragon (paper: Figs. 1 and 9)",
     look: "Before, the coils at the back shine through the coils in front. Afterwards each coil hides the next.",
     query: { sample: "dragon_res2", view: "0.07,0.194,0.21" },
-    sizes: [0.3, 2],
-  }),
-  await pair(studio, {
-    name: "rings",
-    title: "Sparse and uneven: an airplane of rings (paper: Fig. 11)",
-    look: "The arc of every ring that faces the viewer stays, although there are no points between the rings to hide the others.",
-    query: { sample: "rings", view: "9,6.2,12" },
-    sizes: [0.55, 0.55],
   }),
   await pair(studio, {
     name: "room",
     title: "From inside: a furnished room (paper: Fig. 10, several objects)",
     look: "Before, one sees through walls and furniture. Afterwards the points behind the table, the sofa and the chairs are gone.",
-    query: { sample: "room" },
-    sizes: [0.6, 2.5],
+    query: { sample: "room", view: "-2.35,1.62,1.75", target: "-1.45,1.36,1", fov: 70 },
   }),
 ];
 
@@ -47,19 +36,15 @@ async function bunny(studio: Studio): Promise<Figure[]> {
       title: "A closed surface: the bunny (paper: Fig. 2)",
       look: "Before, one cannot tell whether the bunny looks at the viewer or away. Afterwards one can.",
       query: cloud === undefined ? { sample: "bunny" } : { src: "bunny-36k.ply", view: "0.1,0.195,0.215" },
-      sizes: [0.4, 1.4],
     }),
   ];
 }
 
-async function pair(studio: Studio, { name, title, look, query, sizes }: Pair): Promise<Figure> {
-  const [before, after] = [
-    await studio.shoot({ ...query, hidden: "shown", size: sizes[0] }, PANEL),
-    await studio.shoot({ ...query, size: sizes[1] }, PANEL),
-  ];
+async function pair(studio: Studio, { name, title, look, query }: Pair): Promise<Figure> {
+  const [before, after] = [await studio.shoot({ ...query, compare: 1 }, PANEL), await studio.shoot(query, PANEL)];
   const [total, visible] = [count(after.status["total"]), count(after.status["visible"])];
   const panels = [
-    { label: `all ${total} points, the hidden ones in violet`, png: before.png },
+    { label: `all ${total} points`, png: before.png },
     { label: `the ${visible} that can be seen from here`, png: after.png },
   ];
   const caption = `${look} ${visible} of ${total} points are visible from ${from(after)}, automatic ${radiusOf(after)}.`;

@@ -5,7 +5,7 @@ import type { Query, Size, Studio } from "./studio.js";
 const THEMES = ["light", "dark"] as const;
 const WIDE: Size = { width: 480, height: 400 };
 /** Furniture before walls. */
-const ROOM: Query = { sample: "room", size: 2.5 };
+const ROOM: Query = { sample: "room", view: "-2.35,1.62,1.75", target: "-1.45,1.36,1", fov: 70 };
 
 export const halo: Maker = async (studio) => Promise.all(THEMES.map((theme) => inTheme(studio, theme)));
 

@@ -15,7 +15,7 @@ export const radius: Maker = async (studio) => {
   const behind = [];
   const words = [];
   for (const [label, choice] of CHOICES) {
-    const query = { sample: "dragon_res2", size: 1.4, ...choice };
+    const query = { sample: "dragon_res2", ...choice };
     const shot = await studio.shoot({ ...query, view: VIEWPOINT }, NARROW);
     const back = await studio.shoot({ ...query, freeze: VIEWPOINT, view: BEHIND }, NARROW);
     front.push({ label: `${label}: ${count(shot.status["visible"])} visible`, png: shot.png });

@@ -1,7 +1,7 @@
 // tests/figures/README.md: one section for each figure.
 import type { Figure } from "./figure.js";
 
-const ORDER = ["bunny", "dragon", "room", "rings", "error-against-radius", "radius"];
+const ORDER = ["bunny", "dragon", "room", "error-against-radius", "radius"];
 
 const INTRODUCTION = `# The paper's figures
 
@@ -12,7 +12,7 @@ errors against R are not drawn again, and the first figure shows the small bunny
 [FIDELITY.md](FIDELITY.md) has the errors in numbers.
 
 Of the paper's own clouds, only the dragon and the bunny are available here. David, Bimba, Igea, the hand, the carter, the oil
-pump, the block, the bottle and the jet fighter are not. The airplane of rings takes the place of the jet fighter. The paper's
+pump, the block, the bottle and the jet fighter are not. The paper's
 times cannot be measured again, because they come from Matlab on a computer of 2007. Figures 3 and 5 illustrate the flip in
 two dimensions and show no result.
 

@@ -1,4 +1,5 @@
 import type { Field, FileFacts } from "./facts.ts";
+import type { Spacing } from "./spacing.ts";
 import type { Up } from "../../src/ts/formats/axes.js";
 import type { FileStation } from "../../src/ts/formats/cloud-file.js";
 import type { Values } from "../../src/ts/formats/numbers.js";
@@ -70,8 +71,7 @@ export interface Cloud {
   radius: number;
   /** The box of nearly all points, if the others lie far away from them: its middle in `local`, and its size. */
   body: { middle: [number, number, number]; size: [number, number, number] } | null;
-  /** If only its visible points are here: the number of points among which they were found. */
-  among?: number;
+  spacing: Spacing;
 }
 
 /** A cloud ready to draw, with the file's own coordinates and the loader's words about it. */

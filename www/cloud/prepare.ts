@@ -1,4 +1,5 @@
 import type { Cloud, LoadedCloud, PreparedCloud } from "./cloud.ts";
+import { spacingOf } from "./spacing.ts";
 import { spreadOf } from "./spread.ts";
 
 /** Makes a cloud ready to draw. It is slow for many points, so call it in a worker, not in the page's thread. */
@@ -28,6 +29,8 @@ export function prepareCloud({
 
   const size = high.map((value, axis) => value - low[axis]!) as [number, number, number];
   const radius = Math.hypot(...size) / 2;
+  const body = bodyOf(local, size);
+  const [x, y, z] = body?.size ?? size;
   // The view needs a size, even if there is only one point, or all points are equal.
   const cloud = {
     colors,
@@ -40,7 +43,8 @@ export function prepareCloud({
     local,
     size,
     radius: radius > 0 ? radius : 1,
-    body: bodyOf(local, size),
+    body,
+    spacing: spacingOf(local, Math.sqrt((2 * (x * y + y * z + z * x)) / (local.length / 3))),
   };
   return { cloud, positions, copy: positions.slice(), ...said };
 }

@@ -25,7 +25,7 @@ self.onmessage = async ({ data: request }: MessageEvent<WorkerRequest>) => {
     const prepared = prepareCloud(await load(request));
     const { positions, copy, cloud } = prepared;
     const columns = [...cloud.attributes, ...cloud.fields].map(({ values }) => values);
-    const arrays = [positions, copy, cloud.local, cloud.colors, ...columns];
+    const arrays = [positions, copy, cloud.local, cloud.spacing.local, cloud.colors, ...columns];
     // Most fields are attributes, too.
     const buffers = new Set(arrays.flatMap((array) => (array ? [array.buffer as ArrayBuffer] : [])));
     post({ kind: "cloud", prepared }, [...buffers]);

@@ -9,7 +9,7 @@ import type { Settings } from "../settings/settings.ts";
 import { type AskedView, findHome, type Home, inReachOnly, levelFrom } from "../view/framing.ts";
 import type { Opened } from "../view/viewer.ts";
 import { usableColor } from "./usable.ts";
-import { touchingSize, usualLook } from "./usual.ts";
+import { usualLook } from "./usual.ts";
 
 /** A cloud to be opened, and the way in which it is to be shown. */
 export interface Wish {
@@ -43,8 +43,6 @@ export interface Ready {
   settings: Partial<Settings>;
   /** The settings that the cloud has if nothing else is asked for. */
   usual: Pick<Settings, "size" | "fieldOfView" | "up">;
-  /** The point size with which its points touch. */
-  touching: number;
   /** The view that is asked for. `null` if no view is asked for, or if it is out of reach. */
   view: AskedView | null;
   /** Returns the first view, if this view is asked for, or the `whole` cloud with points that lie far away. */
@@ -151,7 +149,6 @@ export async function openCloud(
       opened,
       settings: own,
       usual,
-      touching: touchingSize(sample, cloud.count),
       view,
       homeFrom,
       columnsAt: loaded.columnsAt,

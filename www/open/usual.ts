@@ -2,18 +2,6 @@ import type { Cloud, Up } from "../cloud/cloud.ts";
 import type { Sample } from "../samples/samples.ts";
 import { type Settings, USUAL_SETTINGS } from "../settings/settings.ts";
 
-/** Fewer points touch with a smaller size. With the size that closes a dense surface, a sparse surface looks scaly. */
-const SIZES = [
-  { below: 20_000, size: 1.4 },
-  { below: 200_000, size: 2 },
-];
-const LARGE = 3;
-
-/** The point size with which the points of a cloud touch. */
-export function touchingSize(sample: Sample | null, count: number): number {
-  return sample?.touching ?? SIZES.find(({ below }) => count < below)?.size ?? LARGE;
-}
-
 /**
  * The usual settings for a cloud. `taken`: the direction that was up, if the file says so. `center`: a place in the
  * middle of the cloud.

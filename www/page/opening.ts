@@ -154,7 +154,6 @@ export class Opening {
       },
     );
     panel.usual = this.usual = ready.usual;
-    panel.touching = ready.touching;
     address.begin(insteadOf === undefined ? name : null, ready.usual);
     if (insteadOf !== undefined) status.error(insteadOf);
     if (sample) this.#picker.showSample(sample);

@@ -7,7 +7,6 @@ import { Moves } from "../view/moves.ts";
 import type { Turning } from "../view/turning.ts";
 import type { Viewer } from "../view/viewer.ts";
 import { bindColor, type ColorControl } from "./color.ts";
-import { PointSize } from "./point-size.ts";
 import { bindRadius } from "./radius.ts";
 import { unfoldUnusual } from "./sections.ts";
 import { bindSettings } from "./settings.ts";
@@ -19,7 +18,6 @@ export class Panel {
   /** Shows the radius that an answer was found with. */
   readonly follow: (answer: ViewAnswer) => void;
   readonly #color: ColorControl;
-  readonly #pointSize: PointSize;
   /** The settings that a reset goes back to. */
   usual: Pick<Settings, "fieldOfView"> = USUAL_SETTINGS;
 
@@ -33,7 +31,6 @@ export class Panel {
     viewer.onLegend = this.#color.explain;
     const moves = new Moves(byId("view", HTMLCanvasElement), viewer, store, () => this.usual);
     bindVerbs(viewer, store, moves, turning);
-    this.#pointSize = new PointSize(store);
     bindTheme(store, (theme) => viewer.setTheme(theme));
     unfoldUnusual(opened);
 
@@ -43,10 +40,5 @@ export class Panel {
   /** Prepares the panel for a cloud that is about to be shown. */
   prepare(cloud: Cloud): void {
     this.#color.offer(cloud);
-  }
-
-  /** Takes the size with which the points of the cloud on screen touch. */
-  set touching(size: number) {
-    this.#pointSize.touching = size;
   }
 }

@@ -2,7 +2,7 @@ import { SAMPLES, type Sample, sampleNamed } from "../samples/samples.ts";
 import { byId } from "../controls/dom.ts";
 
 /** The size in CSS pixels. tests/browser/thumbnails.ts makes the pictures twice as large. */
-const THUMBNAIL = { width: 105, height: 70 };
+const THUMBNAIL = { width: 75, height: 50 };
 
 /** Small pictures of some samples, the list of all, and the source of the current cloud. */
 export class SamplePicker {

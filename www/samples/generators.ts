@@ -7,7 +7,6 @@ import type { Generator } from "./generator.ts";
  */
 const GENERATORS = {
   room: () => import("./living-room.ts"),
-  rings: () => import("./rings.ts"),
   street: () => import("./street.ts"),
   tile: () => import("./tile.ts"),
 } satisfies Record<string, () => Promise<Generator>>;

@@ -10,7 +10,8 @@ import { box, type Color, cylinder, dot, legs, rectangle, sphere, type Surface, 
  * is x = z = 0. The seed is fixed: the points are the same on every machine.
  */
 
-const POINTS = 300_000;
+/** Of so many places, those stay that nothing touches. */
+const TRIED = 343_531;
 const NOISE = 0.002;
 const LIGHT: Vector = [0.45, 0.8, 0.4];
 
@@ -28,21 +29,20 @@ const LINEN: Color = [236, 224, 196];
 const BOOKS: Color[] = [[146, 74, 66], [72, 96, 128], [196, 172, 120], [86, 116, 96], [120, 96, 120], [206, 200, 188]]; // prettier-ignore
 
 export function make(): LoadedCloud {
-  const positions = new Float32Array(3 * POINTS);
-  const colors = new Uint8Array(3 * POINTS);
-  let i = 0;
+  const positions = new Float32Array(3 * TRIED);
+  const colors = new Uint8Array(3 * TRIED);
+  let end = 0;
   for (const { surface, u, v, off, grain } of scanRoom().places) {
     const { point, normal } = surface.at(u, v);
     const light = 0.72 + 0.28 * Math.max(0, dot(normal, LIGHT)) + 0.05 * (grain - 0.5);
-    for (let axis = 0; axis < 3; axis++) {
-      positions[3 * i + axis] = point[axis]! + off * normal[axis]!;
-      colors[3 * i + axis] = Math.min(255, surface.color[axis]! * light);
+    for (let axis = 0; axis < 3; axis++, end++) {
+      positions[end] = point[axis]! + off * normal[axis]!;
+      colors[end] = Math.min(255, surface.color[axis]! * light);
     }
-    i++;
   }
   return {
-    positions,
-    colors,
+    positions: positions.slice(0, end),
+    colors: colors.slice(0, end),
     facts: { crs: { name: "Its own", unit: { name: "m", meters: 1 }, heightUnit: null, isAngular: false } },
   };
 }
@@ -97,22 +97,71 @@ function onPieces(surface: Surface, u: number, v: number): { place: Vector; face
   return { place, face: 2 * (row * columns + column) + (lower ? 0 : 1) };
 }
 
+/** No scanner measures a place that has another surface this near before it: under a rug, behind a picture. */
+const TOUCHING = 0.022;
+
+/** The box around a flat piece, which is parallel to two axes. */
+type Box = readonly (readonly [low: number, high: number])[];
+
+function boxOf({ at }: Surface): Box {
+  const corners = [at(0, 0), at(1, 0), at(0, 1), at(1, 1)].map(({ point }) => point);
+  return [0, 1, 2].map((axis) => {
+    const values = corners.map((corner) => corner[axis]!);
+    return [Math.min(...values), Math.max(...values)] as const;
+  });
+}
+
+/**
+ * A test for the points of a flat surface: whether another flat surface touches it there. `boxes` are those of all flat
+ * surfaces.
+ */
+function touchTest(surface: Surface, boxes: ReadonlyMap<Surface, Box>): (point: Vector) => boolean {
+  const { normal } = surface.at(0.5, 0.5);
+  const reach = normal.map((value) => TOUCHING * value);
+  const meets = (box: Box, low: (axis: number) => number, high: (axis: number) => number) => {
+    for (let axis = 0; axis < 3; axis++) {
+      const [from, to] = box[axis]!;
+      if (from > high(axis) + Math.max(0, reach[axis]!) || to < low(axis) + Math.min(0, reach[axis]!)) return false;
+    }
+    return true;
+  };
+  const own = boxes.get(surface)!;
+  const across = normal.findIndex((value) => value !== 0);
+  const near = [...boxes.values()].filter((box) => {
+    const isParallel = box[across]![0] === box[across]![1];
+    const [low, high] = [(axis: number) => own[axis]![0], (axis: number) => own[axis]![1]];
+    return box !== own && isParallel && meets(box, low, high);
+  });
+  return (point) => {
+    const at = (axis: number) => point[axis]!;
+    return near.some((box) => meets(box, at, at));
+  };
+}
+
+function isFlat({ pieces }: Surface): boolean {
+  return pieces[0] === 1 && pieces[1] === 1;
+}
+
 function* scatter(surfaces: readonly Surface[], random: () => number): Generator<Place> {
   const total = surfaces.reduce((sum, surface) => sum + surface.area, 0);
+  const boxes = new Map(surfaces.filter(isFlat).map((surface) => [surface, boxOf(surface)]));
   let area = 0;
   let i = 0;
   for (const surface of surfaces) {
     area += surface.area;
-    // Rounding the running sum gives exactly POINTS in all.
-    const end = Math.round((area / total) * POINTS);
+    const end = Math.round((area / total) * TRIED);
+    const isTouched = isFlat(surface) ? touchTest(surface, boxes) : () => false;
+    // Rows without any jitter would make moiré patterns on a screen.
+    const jitter = 0.6 / Math.sqrt(Math.max(1, end - i));
     let u = random();
     let v = random();
     for (; i < end; i++) {
-      const here = { u, v };
+      const here = { u: (u + jitter * random()) % 1, v: (v + jitter * random()) % 1 };
       // M. Roberts' R2 sequence fills a square evenly, as a scanner does. Independent random points leave holes.
       u = (u + 0.7548776662466927) % 1;
       v = (v + 0.5698402909980532) % 1;
-      yield { surface, ...here, off: NOISE * (random() + random() + random() - 1.5), grain: random() };
+      const place = { surface, ...here, off: NOISE * (random() + random() + random() - 1.5), grain: random() };
+      if (!isTouched(surface.at(here.u, here.v).point)) yield place;
     }
   }
 }

@@ -12,13 +12,7 @@ export const MOST_EXPONENT = 6;
 /** Where the line that divides the picture first stands, as a share of its width. */
 export const MIDDLE = 0.5;
 
-/** The usual point size: points do not cover one another, so what lies behind them shows. */
-export const SMALL = 0.35;
-
-/** From this point size on, the points of a surface touch. */
-export const TOUCHING_FROM = 0.75;
-
-/** The limits of the point size, in multiples of the rough distance between neighboring points. */
+/** The limits of the size of visible points. With 1, those of a surface touch. */
 export const POINT_SIZE = { least: 0.05, most: 50 };
 
 /** The limits of the vertical field of view, in degrees. */

@@ -13,7 +13,7 @@ import {
   RADIUS,
   wholeBetween,
 } from "./kinds.ts";
-import { FIELD_OF_VIEW, MAX_POINTS, MOST_EXPONENT, POINT_SIZE, SMALL } from "./limits.ts";
+import { FIELD_OF_VIEW, MAX_POINTS, MOST_EXPONENT, POINT_SIZE } from "./limits.ts";
 import type { HiddenMode, Inversion, Looks, Radius, ThemeChoice, Viewpoint } from "./types.ts";
 
 /*
@@ -119,7 +119,7 @@ export const SETTINGS = {
   size: setting<number>({
     parameter: "size",
     ...between(POINT_SIZE.least, POINT_SIZE.most),
-    usual: SMALL,
+    usual: 1,
     called: "point size",
     otherwise: "the usual one is used",
     ofCloud: true,

@@ -2,6 +2,7 @@ import { WorkerPointCloud } from "hidden-point-removal/worker";
 import { type Detail, Inquiry, type TimedView } from "../ask/inquiry.ts";
 import { WorkerCloud } from "../ask/worker-cloud.ts";
 import type { Cloud } from "../cloud/cloud.ts";
+import { spacingOf } from "../cloud/spacing.ts";
 import type { Settings, Viewpoint } from "../settings/settings.ts";
 import type { StreamStep } from "./protocol.ts";
 
@@ -35,6 +36,7 @@ export async function detailOf(
   { total, sentence, ...said }: Pick<TimedView, "kind" | "asked" | "question"> & NonNullable<TimedView["whole"]>,
 ): Promise<Detail> {
   const { center, size, radius, body, facts } = overview;
+  const [x, y, z] = body?.size ?? size;
   const local = new Float32Array(positions.length);
   for (let i = 0; i < positions.length; i++) local[i] = positions[i]! - center[i % 3]!;
   const cloud: Cloud = {
@@ -50,8 +52,7 @@ export async function detailOf(
     size,
     radius,
     body,
-    // The points have the size that all points have when they are here.
-    among: exact ? total : points,
+    spacing: spacingOf(local, Math.sqrt((2 * (x * y + y * z + z * x)) / (exact ? total : points))),
   };
   const made = async () => new WorkerCloud(await WorkerPointCloud.create(positions, { workers: 1 }), center);
   const worker = await made();

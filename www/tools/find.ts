@@ -1,4 +1,5 @@
-import { MOST_PIXELS } from "../view/point-shaders.ts";
+import { localSpacing } from "../cloud/spacing.ts";
+import { MOST_PIXELS } from "../view/points.ts";
 import type { Viewer } from "../view/viewer.ts";
 import { Projection } from "./projection.ts";
 
@@ -19,11 +20,14 @@ const LAYER = 4;
  */
 export function pointAt(viewer: Viewer, { x, y, tolerance }: Spot, through: boolean): number | null {
   const { pointWidth, pixelRatio } = viewer.stage;
-  const widest = MOST_PIXELS.touching / 2 / pixelRatio;
+  const { local } = viewer.scene.cloud.spacing;
+  const widest = MOST_PIXELS / 2 / pixelRatio;
   const among = through ? null : viewer.scene.visible;
   return (
     nearestAt(viewer, x, y, among, tolerance, () => tolerance) ??
-    nearestAt(viewer, x, y, among, widest, (at) => Math.min(widest, pointWidth / 2 / at.lengthOf(1)))
+    nearestAt(viewer, x, y, among, widest, (at, index) =>
+      Math.min(widest, (localSpacing(local[index]!) * pointWidth) / 2 / at.lengthOf(1)),
+    )
   );
 }
 
@@ -34,7 +38,7 @@ function nearestAt(
   y: number,
   among: Uint32Array | null,
   most: number,
-  allowed: (at: Projection) => number,
+  allowed: (at: Projection, index: number) => number,
 ): number | null {
   const found: { index: number; off: number; ahead: number }[] = [];
   let behind = Infinity;
@@ -43,7 +47,7 @@ function nearestAt(
   const reach = most + 1;
   at.each({ left: x - reach, right: x + reach, top: y - reach, bottom: y + reach }, among, (index) => {
     const off = Math.hypot(at.x - x, at.y - y);
-    const tolerance = allowed(at);
+    const tolerance = allowed(at, index);
     if (off > tolerance) return;
     found.push({ index, off, ahead: at.ahead });
     behind = Math.min(behind, at.ahead + at.lengthOf(LAYER * tolerance));

@@ -14,6 +14,7 @@ export const TINT_SHADER = /* glsl */ `
   uniform vec3 chosenColor;
   attribute float chosen;
   attribute vec3 color;
+  attribute float spread;
 
   vec3 ownTint() {
     if (colored) return color;
@@ -41,14 +42,16 @@ export class CloudAttributes {
   readonly #bounds: Sphere;
   readonly #geometries: BufferGeometry[] = [];
   readonly #position: BufferAttribute;
+  readonly #spread: BufferAttribute;
   readonly #ownColors: Uint8Array | null;
   #color: BufferAttribute | null = null;
   #chosen: BufferAttribute | null = null;
 
-  constructor({ local, colors, radius }: Cloud, theme: Theme) {
+  constructor({ local, colors, radius, spacing }: Cloud, theme: Theme) {
     this.#local = local;
     this.#bounds = new Sphere(new Vector3(), radius);
     this.#position = new BufferAttribute(local, 3);
+    this.#spread = new BufferAttribute(spacing.local, 1, true);
     this.#ownColors = colors;
     this.setTints(null);
     this.setTheme(theme);
@@ -63,6 +66,7 @@ export class CloudAttributes {
   /** Gives a geometry the cloud's points as vertices. */
   addTo(geometry: BufferGeometry): void {
     geometry.setAttribute("position", this.#position);
+    geometry.setAttribute("spread", this.#spread);
     if (this.#color) geometry.setAttribute("color", this.#color);
     if (this.#chosen) geometry.setAttribute("chosen", this.#chosen);
     // Otherwise three.js computes it from all points, once for each geometry.

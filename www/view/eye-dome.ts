@@ -23,8 +23,8 @@ import {
  */
 
 const STRENGTH = 150;
-/** Of small points: each of them has the background beside it, and would be speckled. */
-const SMALL_STRENGTH = 30;
+/** The shade of an edge, however far its other side lies behind: darker ones would be black rims. */
+const DARKEST = 0.55;
 /** Points wider than this many device pixels are shaded more softly, since each would get its own dark rim. */
 const SOFT_FROM = 2;
 /** The distance of the neighbors in device pixels. For wide points it grows by this share of their extra width. */
@@ -42,8 +42,7 @@ const fragmentShader = /* glsl */ `
   uniform highp sampler2D depths, allDepths;
   uniform vec2 planes;
   uniform vec3 background;
-  uniform float reach, strength, softness;
-  uniform bool shadesAll;
+  uniform float reach, softness;
   /* How opaque all points are where the scene is empty, and up to which pixel from the left they are drawn alone. */
   uniform float behind, alone;
   out vec4 result;
@@ -69,16 +68,36 @@ const fragmentShader = /* glsl */ `
       float other = texelFetch(depths, there, 0).r;
       ratios *= other < 1.0 ? max(1.0, nearness(other) / own) : 1.0;
     }
-    float shade = exp(-strength * soft * log2(ratios) / 8.0);
-    // Small points fade into the background: black ones would stand out from a light one.
-    vec3 color = texelFetch(colors, pixel, 0).rgb;
-    return mix(shadesAll ? vec3(0.0) : background, color, mix(0.2, 1.0, shade));
+    float shade = exp(-${STRENGTH.toFixed(1)} * soft * log2(ratios) / 8.0);
+    return texelFetch(colors, pixel, 0).rgb * mix(${DARKEST}, 1.0, shade);
+  }
+
+  /* A gap of few pixels with a surface on most sides of it is closed: the pixel beside it that stands for it. */
+  ivec2 closed(ivec2 pixel) {
+    ivec2 last = textureSize(depths, 0) - 1;
+    ivec2 found = pixel;
+    float nearest = 1.0;
+    int sides = 0;
+    for (int i = 0; i < 8; i++) {
+      ivec2 there = clamp(ivec2(round(vec2(pixel) + 2.0 * AROUND[i])), ivec2(0), last);
+      float depth = texelFetch(depths, there, 0).r;
+      if (depth < 1.0) sides++;
+      if (depth < nearest) {
+        nearest = depth;
+        found = there;
+      }
+    }
+    return sides > 5 ? found : pixel;
   }
 
   void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     bool isAlone = gl_FragCoord.x < alone;
     float depth = isAlone ? 1.0 : texelFetch(depths, pixel, 0).r;
+    if (depth == 1.0 && !isAlone) {
+      pixel = closed(pixel);
+      depth = texelFetch(depths, pixel, 0).r;
+    }
     if (depth < 1.0) {
       gl_FragDepth = depth;
       result = vec4(shaded(colors, depths, pixel, depth), 1.0);
@@ -88,8 +107,8 @@ const fragmentShader = /* glsl */ `
     gl_FragDepth = depth;
     vec3 color = background;
     if (depth < 1.0) {
-      vec3 all = shadesAll ? shaded(allColors, allDepths, pixel, depth) : texelFetch(allColors, pixel, 0).rgb;
-      color = mix(color, all, isAlone ? 1.0 : behind);
+      // The shade of small points would make the far side darker, and hide it.
+      color = mix(color, texelFetch(allColors, pixel, 0).rgb, isAlone ? 1.0 : behind);
     }
     result = vec4(color, 1.0);
   }
@@ -107,11 +126,6 @@ export interface AllPoints {
 export class EyeDome {
   /** The width of a point in the scene's units. */
   pointWidth = 1;
-  /**
-   * Whether the points of a surface touch. Then the picture of all points is shaded, too. The shade of small points would
-   * make the far side darker, and hide it.
-   */
-  touching = true;
   readonly #target = newTarget();
   /** The picture of all points, if it is needed. */
   #allTarget: WebGLRenderTarget | null = null;
@@ -137,9 +151,7 @@ export class EyeDome {
         planes: { value: this.#planes },
         background: { value: new Color() },
         reach: { value: REACH },
-        strength: { value: STRENGTH },
         softness: { value: 1 },
-        shadesAll: { value: true },
       },
     });
     // This is one triangle that covers the screen.
@@ -196,8 +208,6 @@ export class EyeDome {
   #shade(renderer: WebGLRenderer, camera: PerspectiveCamera): void {
     this.#planes.set(camera.near, camera.far);
     this.#material.uniforms["reach"]!.value = REACH * renderer.getPixelRatio();
-    this.#material.uniforms["shadesAll"]!.value = this.touching;
-    this.#material.uniforms["strength"]!.value = this.touching ? STRENGTH : SMALL_STRENGTH;
     // At this distance a point is as wide as SOFT_FROM pixels. Nearer points are wider in proportion.
     const pixels = (camera.projectionMatrix.elements[5] * this.#size.y) / 2;
     this.#material.uniforms["softness"]!.value = (this.pointWidth * pixels) / SOFT_FROM;

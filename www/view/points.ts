@@ -12,18 +12,70 @@ import {
   Vector3,
   Vector4,
 } from "three";
-import type { VisibilityMap } from "hidden-point-removal";
+import { VisibilityMap } from "hidden-point-removal";
 import type { Cloud } from "../cloud/cloud.ts";
-import { TOUCHING_FROM } from "../settings/limits.ts";
 import type { HiddenMode } from "../settings/settings.ts";
-import { type CloudAttributes, display } from "./attributes.ts";
-import { fragmentShader, MOST_PIXELS, vertexShader } from "./point-shaders.ts";
+import { LOCAL_SPACING } from "../cloud/spacing.ts";
+import { type CloudAttributes, display, TINT_SHADER } from "./attributes.ts";
 import type { Theme } from "./theme.ts";
+
+/** The greatest width of a point in pixels: a wider one would be a balloon. */
+export const MOST_PIXELS = 160;
+/** Of all points, which are small and bright, so that what lies behind them shows. */
+const MOST_SMALL = 2.5;
+/** Discs of this many spacings cover a surface. With less, what lies behind shows. */
+const COVERING = 2;
+/** The width of one of all points, in spacings. */
+const SMALL = 0.35;
+
+const vertexShader = /* glsl */ `
+  ${TINT_SHADER}
+  /* The width of a point in the cloud's units where it is typical, and the length of a unit at distance 1 in pixels. */
+  uniform float width, pixels;
+  /* The least width of a point in pixels: a smaller one flickers. The greatest one: a wider one would be a balloon. */
+  uniform float least, most;
+  uniform vec3 cover;
+  uniform float coverage;
+  /* 0: all points are drawn. 1: those that the map does not hide. -1: those that it hides. */
+  uniform float byMap;
+  /* The part of the picture that is shown, from left to right in clip space, and the width of a pixel there. */
+  uniform vec3 part;
+  ${VisibilityMap.prototype.glsl}
+  varying vec3 tint;
+  varying float size;
+
+  void main() {
+    if (byMap != 0.0 && (byMap > 0.0) == hidden(position)) {
+      gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+      gl_PointSize = 0.0;
+      return;
+    }
+    gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
+    size = clamp(width * ${LOCAL_SPACING} * pixels / gl_Position.w, least, max(least, most));
+    gl_PointSize = size;
+    // Far beyond the dividing line, nobody sees the point, nor its shade.
+    float x = gl_Position.x / gl_Position.w;
+    float near = (size + 16.0) * part.z;
+    if (gl_Position.w > 0.0 && (x < part.x - near || x > part.y + near)) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+    tint = chosenOr(mix(ownTint(), cover, coverage));
+  }
+`;
+
+const fragmentShader = /* glsl */ `
+  varying vec3 tint;
+  varying float size;
+
+  void main() {
+    // Below three pixels a disc and a square look alike.
+    if (size > 3.0 && length(gl_PointCoord - 0.5) > 0.5) discard;
+    gl_FragColor = vec4(tint, 1.0);
+  }
+`;
 
 /** The share of a hidden point's own color that the theme's color for hidden points covers. */
 const COVERAGE = 0.85;
 
-/** The greatest width of a hidden point, in spacings: it must not look like a surface. */
+/** The width of a hidden point, in spacings: it must not look like a surface. */
 const HIDDEN_WIDTH = 0.45;
 
 type Draw = Points<BufferGeometry, ShaderMaterial>;
@@ -47,7 +99,6 @@ export class CloudPoints {
   readonly #draws: Draw[];
   #theme: Theme;
   #ghostly = false;
-  #width = 0;
   #visible: Uint32Array = new Uint32Array();
   /** The uniforms of a map, shared by all draws. */
   readonly #map = {
@@ -61,7 +112,7 @@ export class CloudPoints {
     this.#theme = theme;
     this.#order = new BufferAttribute(new Uint32Array(cloud.count), 1);
     this.#order.setUsage(DynamicDrawUsage);
-    this.#spacing = roughSpacing(cloud);
+    this.#spacing = cloud.spacing.typical;
 
     const draw = (coverage: number, order: BufferAttribute | null = this.#order) => {
       const geometry = new BufferGeometry();
@@ -99,8 +150,7 @@ export class CloudPoints {
         (uniforms["part"]!.value as Vector3).set(2 * from - 1, 2 * to - 1, 2 / width);
         uniforms["pixels"]!.value = (camera.projectionMatrix.elements[5] * height) / 2;
         const least = leastPixels(cloud.count, width / renderer.getPixelRatio()) * renderer.getPixelRatio();
-        const kind = this.#width < TOUCHING_FROM * this.#spacing ? "small" : "touching";
-        uniforms["most"]!.value = MOST_PIXELS[kind] * renderer.getPixelRatio();
+        uniforms["most"]!.value = (each === this.all ? MOST_SMALL : MOST_PIXELS) * renderer.getPixelRatio();
         // Visible points look solid beside all points, whose far side shows between them.
         const share = each === this.ghost ? 1 / 1.5 : each === this.solid ? 1.2 : 1 / 1.2;
         uniforms["least"]!.value = share * least;
@@ -169,7 +219,6 @@ export class CloudPoints {
     if (this.ghost.visible && !this.#hiddenListed) this.#listHidden();
     this.#ghostly = mode === "dimmed";
     this.setTheme(this.#theme);
-    this.#setWidths();
   }
 
   setTheme(theme: Theme): void {
@@ -177,16 +226,12 @@ export class CloudPoints {
     this.ghost.material.uniforms["cover"]!.value = display(this.#ghostly ? theme.hiddenDimmed : theme.hidden);
   }
 
-  /** Takes multiples of the rough distance between neighbors. Returns the width of a point in the cloud's units. */
+  /** `size`: 1 for points that touch. Returns the width of a typical point in the cloud's units. */
   setPointSize(size: number): number {
-    this.#width = size * this.#spacing;
-    this.#setWidths();
-    return this.#width;
-  }
-
-  #setWidths(): void {
-    for (const { material } of this.#draws) material.uniforms["width"]!.value = this.#width;
-    this.ghost.material.uniforms["width"]!.value = Math.min(this.#width, HIDDEN_WIDTH * this.#spacing);
+    const set = (draw: Draw, spacings: number) => (draw.material.uniforms["width"]!.value = spacings * this.#spacing);
+    set(this.ghost, HIDDEN_WIDTH);
+    set(this.all, SMALL);
+    return set(this.solid, COVERING * size);
   }
 
   dispose(): void {
@@ -196,15 +241,6 @@ export class CloudPoints {
       material.dispose();
     }
   }
-}
-
-/**
- * The distance between neighbors if the points were spread evenly over the faces of their bounding box. It is good
- * enough for a surface, and needs no search.
- */
-function roughSpacing({ size, body, count, among = count }: Cloud): number {
-  const [x, y, z] = body?.size ?? size;
-  return Math.sqrt((2 * (x * y + y * z + z * x)) / among);
 }
 
 /**

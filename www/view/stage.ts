@@ -89,12 +89,6 @@ export class Stage {
     this.invalidate();
   }
 
-  /** Whether the points of a surface touch. */
-  setTouching(touching: boolean): void {
-    this.#eyeDome.touching = touching;
-    this.invalidate();
-  }
-
   /** The scene of all points; see `setAll`. */
   get all(): Scene {
     return this.#all.scene;

@@ -4,7 +4,6 @@ import type { Detail, Inquiry, Mapped, TimedView } from "../ask/inquiry.ts";
 import type { Attribute, Cloud, FileStation, Up } from "../cloud/cloud.ts";
 import { prepareCloud } from "../cloud/prepare.ts";
 import type { KnownSurface } from "../samples/samples.ts";
-import { TOUCHING_FROM } from "../settings/limits.ts";
 import type { Settings, Viewpoint } from "../settings/settings.ts";
 import type { Store } from "../settings/store.ts";
 import { CloudAttributes } from "./attributes.ts";
@@ -341,7 +340,6 @@ export class Viewer {
     const { points } = this.#shown!;
     points.show(compare === null ? chosen : "off");
     this.stage.setAll({ alone: compare ?? 0 });
-    this.stage.setTouching(size >= TOUCHING_FROM);
     this.stage.setPointWidth(points.setPointSize(size));
     this.stage.setFieldOfView(fieldOfView);
   }

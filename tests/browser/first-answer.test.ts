@@ -1,6 +1,7 @@
 import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
-import { addressWritten, answerInNode, drag, dragonPositions, openReady, refiltered, said, status } from "./support.js";
+import { make as makeRoom } from "../../www/samples/living-room.js";
+import { addressWritten, answerInNode, drag, openReady, refiltered, said, status } from "./support.js";
 
 /** How many frames are drawn until the next answer. */
 function framesToAnswer(page: Page): Promise<number> {
@@ -22,14 +23,14 @@ function framesToAnswer(page: Page): Promise<number> {
   );
 }
 
-test("the page opens on the dragon, goes on drawing while it is asked, and every answer is the package's own", async () => {
-  const positions = dragonPositions("_res2");
+test("the page opens on the room, goes on drawing while it is asked, and every answer is the package's own", async () => {
+  const { positions } = makeRoom();
   const page = await openReady();
   const first = await status(page);
-  expect(first.total).toBe(100_250);
+  expect(first.total).toBe(300_000);
   expect(first.visible).toBeGreaterThan(0);
   expect(first.visible).toBeLessThan(first.total);
-  expect(await said(page)).toMatch(/^[\d,]+ of 100,250 points can be seen from here\.$/);
+  expect(await said(page)).toMatch(/^[\d,]+ of 300,000 points can be seen from here\.$/);
   expect(first).toMatchObject(await answerInNode(positions, first));
   // A visitor who has done nothing yet gets the divided picture again at the next visit.
   await page.locator("#divider").waitFor();
@@ -41,7 +42,7 @@ test("the page opens on the dragon, goes on drawing while it is asked, and every
   expect(await frames).toBeGreaterThan(1);
   // Then the newest viewpoint is answered.
   const second = await refiltered(page, first);
-  await expect.poll(() => new URL(page.url()).search).toMatch(/^\?sample=dragon_res2&compare=0\.5&view=[^&]+$/);
+  await expect.poll(() => new URL(page.url()).search).toMatch(/^\?sample=room&compare=0\.5&view=[^&]+$/);
   expect(second.refilters).toBeGreaterThan(first.refilters);
   expect(second.viewpoint).not.toEqual(first.viewpoint);
   expect(second.visible).not.toBe(first.visible);
