@@ -61,7 +61,7 @@ pub use answers::visibility::Visibility;
 pub use answers::visibility_map::{MapOptions, VisibilityMap};
 #[cfg(feature = "stop")]
 #[doc(hidden)]
-pub use base::beat::{Stopped, stop_by};
+pub use base::beat::{Stopped, stop, stop_by};
 pub use base::error::Error;
 pub use base::limit::MAX_POINTS;
 pub use cloud::noise::Surface;

@@ -13,22 +13,31 @@ viewpoint, and those on the convex hull of the flipped cloud and the viewpoint a
 
 from __future__ import annotations
 
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
 from ._native import Horizon, HprError, PointCloud, VisibilityMap, merge_visible
 from .answers import Calibration, Panorama, Placement, SeenBy, Visibility, colmap_vis, orient_normals
 from .cameras import CameraOfImage, read_cameras
-from .transfer import transfer
+from .transfer import name_options, transfer
+from .types import Camera, MergeOptions, Options, Positions, Station, Unpack, Within
 
 __all__ = [
+    "Camera",
     "Calibration",
     "CameraOfImage",
     "Horizon",
     "HprError",
+    "MergeOptions",
+    "Options",
     "Panorama",
     "Placement",
     "PointCloud",
     "SeenBy",
+    "Station",
     "Visibility",
     "VisibilityMap",
+    "Within",
     "colmap_vis",
     "hidden_point_removal",
     "merge_visible",
@@ -39,14 +48,22 @@ __all__ = [
 __version__ = "0.1.0"
 
 
-def hidden_point_removal(points, camera_location, radius=None):
+def hidden_point_removal(
+    points: Positions, camera_location: ArrayLike, radius: float | None = None, **options: Unpack[Options]
+) -> NDArray[np.uint32]:
     """The indices of the visible points, ascending: uint32.
 
     points: array of shape (n, 3), or an Open3D point cloud: whatever `PointCloud` takes.
     camera_location: 3 numbers, in the units of the points.
     radius: float, the radius of the flipping sphere in the same units, at least the distance of the farthest point.
         None (default): chosen automatically.
+    Options: those of `PointCloud.visible_from`, such as looks=3.
 
-    The arguments are those of Open3D's method of the same name.
+    The first arguments are those of Open3D's method of the same name.
     """
-    return PointCloud(points).visible_from(camera_location, radius=radius).indices
+    if radius is not None:
+        options["radius"] = radius
+    return PointCloud(points).visible_from(camera_location, **options).indices
+
+
+name_options(hidden_point_removal)

@@ -1,87 +1,11 @@
 from collections.abc import Callable, Iterable, Sequence
-from typing import Any, Literal, Protocol, TypedDict
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from typing_extensions import NotRequired, Unpack
 
 from .answers import Calibration, Panorama, Placement, SeenBy, Visibility
-
-Rule = Literal["auto", "opposite"]
-Inversion = Literal["spherical"] | dict[str, float | str]
-
-class Within(TypedDict):
-    """A point takes part if all entries choose it. An entry that is None counts as left out."""
-
-    distance: NotRequired[float | None]
-    """The points at most this far from the viewpoint."""
-    box: NotRequired[tuple[ArrayLike, ArrayLike] | ArrayLike | None]
-    """The points between these two corners, the lowest and the highest coordinates, borders included."""
-    mask: NotRequired[ArrayLike | None]
-    """One truth value for each index."""
-
-class Options(TypedDict):
-    """The options of a view. An option that is None counts as left out."""
-
-    radius: NotRequired[float | Rule | None]
-    """R of the flipping sphere in the cloud's units, or the rule that chooses it. Default "auto"."""
-    exponent: NotRequired[float | None]
-    """R = farthest distance * 10**exponent, the paper's parameter. Excludes `radius`."""
-    inversion: NotRequired[Inversion | None]
-    """ "spherical", {"power": number} or {"exponential": number or "auto"}."""
-    looks: NotRequired[Literal[2, 3] | None]
-    """Two or three hulls, each trusted where it is sure. Excludes radius, exponent and inversion."""
-    scores: NotRequired[bool | None]
-    """With `looks` only: the answer then has a score for each index."""
-    thickness: NotRequired[float | Literal["auto"] | None]
-    """With `looks` only: how far behind the surface before it a point may be seen. Default "auto", by the noise."""
-    within: NotRequired[Within | None]
-    """Only these points take part, as if the cloud held no others."""
-    threads: NotRequired[int | None]
-    """How many threads compute, from 1 to 256; they change no answer. Default: all cores from 200,000 points on, else 1."""
-
-class Cone(TypedDict):
-    """A cone of directions."""
-
-    direction: ArrayLike
-    angle: float
-    """Its full opening in degrees, above 0 and at most 360."""
-
-class Station(TypedDict):
-    """Where a scanner stood, and the points that it measured, by exactly one of `indices` and `mask`."""
-
-    viewpoint: ArrayLike
-    indices: NotRequired[ArrayLike | None]
-    mask: NotRequired[ArrayLike | None]
-
-class MergeOptions(TypedDict):
-    radius: NotRequired[float | None]
-    inversion: NotRequired[Inversion | None]
-
-class Camera(TypedDict):
-    """A pinhole camera: u = fx * x / z + cx, with x to the right, y down and z forward. u = 0 is the left edge of the first pixel."""
-
-    camera_to_world: NotRequired[ArrayLike | None]
-    """From the camera's space to the cloud's, rigid: 4 rows of 4, or 16 numbers column by column."""
-    world_to_camera: NotRequired[ArrayLike | None]
-    """The inverse, as COLMAP and OpenCV keep it. Exactly one of the two is given."""
-    convention: NotRequired[Literal["opencv", "opengl"]]
-    """The axes of the camera's space. Default "opencv"."""
-    fx: float
-    fy: float
-    cx: float
-    cy: float
-    width: float
-    height: float
-    model: NotRequired[str | None]
-    """COLMAP's name of the model of the lens. Default "OPENCV"."""
-    distortion: NotRequired[ArrayLike | None]
-    """The coefficients as COLMAP lists them for the model; k1, k2, p1, p2 for "OPENCV", and k3 where there is one."""
-    near: NotRequired[float]
-    far: NotRequired[float]
-
-Seat = ArrayLike | Camera
-"""A viewpoint, or a camera, which sees only what is in its image."""
+from .types import CameraLike, Cone, MergeOptions, Options, Positions, Rule, Seat, Station, Unpack
 
 class HprError(ValueError):
     """Bad input."""
@@ -105,24 +29,16 @@ class VisibilityMap:
     def hides(self, positions: Positions) -> NDArray[np.bool_]:
         """Which places are certainly hidden."""
 
-class HasPoints(Protocol):
-    """A cloud of another library, such as Open3D's."""
-
-    @property
-    def points(self) -> Any: ...
-
-Positions = ArrayLike | HasPoints
-
 class PointCloud:
     """A point cloud, prepared for visibility queries.
 
-    `positions` has the shape (n, 3), in any units; of more columns, the first three count. It may also be a tensor, or
-    a cloud with its array as `points`. Arrays of float32 and float64 are read without a copy. Other
-    numbers are converted to float64. With `non_finite="skip"`, points that are not finite keep their index and are
-    never visible. A masked coordinate of a masked array counts as not finite.
+    `positions` has the shape (n, 3), in any units; of more columns, the first three count. It may also be a tensor, a cloud
+    of Open3D, laspy, pye57, trimesh or PyVista, columns by name, or the path of a file that `visible_from_tiles` reads. Arrays
+    of float32 and float64 are read without a copy. Other numbers are converted to float64. With `non_finite="skip"`, points
+    that are not finite keep their index and are never visible. A masked coordinate of a masked array counts as not finite.
     """
 
-    def __init__(self, positions: Positions, non_finite: Literal["error", "skip"] = "error") -> None: ...
+    def __new__(cls, positions: Positions, non_finite: Literal["error", "skip"] = "error") -> PointCloud: ...
     def __len__(self) -> int: ...
     @property
     def skipped(self) -> int:
@@ -143,7 +59,7 @@ class PointCloud:
         self, k: int, viewpoints: Iterable[Seat], **options: Unpack[Options]
     ) -> Visibility:
         """The points that at least `k` of the viewpoints see."""
-    def visible_from_camera(self, camera: Camera, **options: Unpack[Options]) -> Visibility:
+    def visible_from_camera(self, camera: CameraLike, **options: Unpack[Options]) -> Visibility:
         """The points that a camera sees: `visible_from` its place, cut to its image, with `pixels` and `depths`."""
     def sees(self, viewpoint: ArrayLike, positions: Positions, **options: Unpack[Options]) -> NDArray[np.bool_]:
         """For points that are not in the cloud: whether each would be visible if it were added alone."""
@@ -172,12 +88,12 @@ class PointCloud:
         """
     def seen_by(
         self,
-        cameras: Iterable[Camera],
+        cameras: Iterable[CameraLike],
         *,
         on_progress: Callable[[float], object] | None = None,
         **options: Unpack[Options],
     ) -> SeenBy:
-        """Which cameras see each point, and where: the rows of a sparse matrix."""
+        """Which cameras see each point, and where: the rows of a sparse matrix (`matrix()`)."""
     def calibrate(self, stations: Iterable[Station], **options: Unpack[Options]) -> Calibration:
         """The smallest thickness at which each station of a scan sees the points that it measured."""
     def visibility_map(
@@ -186,7 +102,7 @@ class PointCloud:
         *,
         points: int | None = 32_768,
         corners: int | None = 131_072,
-        towards: Camera | Cone | None = None,
+        towards: CameraLike | Cone | None = None,
         origin: ArrayLike | None = None,
         **options: Unpack[Options],
     ) -> VisibilityMap:
@@ -213,7 +129,13 @@ class PointCloud:
     def append(self, positions: Positions) -> None:
         """Adds points, which take the next indices."""
     def remove(self, indices: ArrayLike) -> None:
-        """Removes points. Their indices are never given again."""
+        """Removes points, by their indices or by a mask. Their indices are never given again."""
+    def _positions_of(self, indices: NDArray[np.uint32]) -> NDArray[Any]: ...
+    def _camera_views(
+        self, cameras: Iterable[CameraLike], on_progress: Callable[[float], object] | None = None, **options: Unpack[Options]
+    ) -> list[tuple[Visibility, NDArray[np.float32]]]: ...
+    def __reduce__(self) -> tuple[Any, ...]: ...
+    def __setstate__(self, removed: ArrayLike) -> None: ...
 
 class Horizon:
     """The hull of some points of a cloud, as seen from one viewpoint. What it hides is hidden in the whole cloud.
@@ -221,7 +143,10 @@ class Horizon:
     The radius or the inversion is a number, the same for the whole cloud.
     """
 
-    def __init__(self, viewpoint: ArrayLike, **options: Unpack[MergeOptions]) -> None: ...
+    def __new__(cls, viewpoint: ArrayLike, **options: Unpack[MergeOptions]) -> Horizon: ...
+    def __getnewargs_ex__(self) -> tuple[tuple[tuple[float, float, float]], dict[str, Any]]: ...
+    def __getstate__(self) -> NDArray[np.float64]: ...
+    def __setstate__(self, points: ArrayLike) -> None: ...
     def add(self, positions: Positions) -> None:
         """Adds points."""
     def screen(self, positions: Positions) -> NDArray[np.uint32]:
@@ -232,10 +157,12 @@ class Horizon:
         """The points that were added and are visible among them: (m, 3)."""
 
 def merge_visible(
-    parts: Sequence[tuple[ArrayLike, ArrayLike]], viewpoint: ArrayLike, **options: Unpack[MergeOptions]
+    parts: Sequence[tuple[Positions, ArrayLike]], viewpoint: ArrayLike, **options: Unpack[MergeOptions]
 ) -> NDArray[np.uint64]:
     """The ids of the points that are visible in a whole cloud, ascending.
 
     Each part is (positions, ids): the visible points of one part of the cloud, with the caller's number of each.
     The answer is exact: visible(A + B) = visible(visible(A) + visible(B)).
     """
+
+def _lenses(cameras: Iterable[CameraLike]) -> list[list[float]]: ...

@@ -2,18 +2,23 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-from typing import Any, NamedTuple
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, DTypeLike, NDArray
 
-from .errors import refusal
+from .arguments import array, refusal
+
+if TYPE_CHECKING:
+    from scipy.sparse import csr_array
+
+    from ._native import PointCloud
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Visibility:
-    """Which points are visible.
+    """Which points are visible. It is an index: `points[visible]` are the visible ones, `points[~visible]` the hidden ones.
 
     indices: the indices of the visible points, ascending.
     scores: a score from 0 to 1 for each index. None unless it was asked for.
@@ -35,12 +40,22 @@ class Visibility:
     inversion: str | dict[str, float | list[float]]
     pixels: NDArray[np.float32] | None
     depths: NDArray[np.float32] | None
-    _length: int = field(repr=False)
+    _length: int
+    _cloud: PointCloud | None
 
     @property
     def count(self) -> int:
         """How many points are visible."""
         return len(self.indices)
+
+    @property
+    def points(self) -> NDArray[Any]:
+        """The positions of the visible points: shape (count, 3), in the precision of the cloud. NaN for points that were
+        removed since. An answer that came from a file or another process has no cloud; there, `points[visible]` of the
+        positions does."""
+        if self._cloud is None:
+            raise refusal("option", "this answer was copied without its cloud; index the positions by it, as in points[visible]")
+        return self._cloud._positions_of(self.indices)
 
     def mask(self) -> NDArray[np.bool_]:
         """One truth value for each index: True where the point is visible."""
@@ -48,11 +63,32 @@ class Visibility:
         mask[self.indices] = True
         return mask
 
+    def __invert__(self) -> NDArray[np.bool_]:
+        """One truth value for each index: True where the point is hidden."""
+        return ~self.mask()
+
+    def __array__(self, dtype: DTypeLike = None, copy: bool | None = None) -> NDArray[Any]:
+        """The indices: int64, unless another type is asked for."""
+        return self.indices.astype(np.int64 if dtype is None else dtype)
+
     def __len__(self) -> int:
         return self.count
 
+    def __getitem__(self, number: int) -> int:
+        # So this is a sequence, which torch takes as an index.
+        return int(self.indices[number])
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {**self.__dict__, "_cloud": None}
+
     def __repr__(self) -> str:
         return f"Visibility({self.count} of {self._length} points, radius={self.radius})"
+
+    def _repr_html_(self) -> str:
+        share = self.count / max(1, self._length)
+        bar = f"<progress max='1' value='{share:.4f}'></progress>"
+        used = f"R = {self.radius:.6g}" if self.radius else f"{self.inversion}"
+        return f"<p>{bar} <b>{self.count:,}</b> of {self._length:,} points are visible ({share:.1%}). {used}</p>"
 
 
 class Panorama(NamedTuple):
@@ -94,11 +130,7 @@ class Calibration(NamedTuple):
 
 class SeenBy(NamedTuple):
     """Which cameras see each point: the rows of a sparse matrix. The cameras of point i are
-    `cameras[offsets[i]:offsets[i + 1]]`, ascending.
-
-    `scipy.sparse.csr_array((values, seen.cameras, seen.offsets))` with one value for each entry is the matrix of points
-    and cameras.
-    """
+    `cameras[offsets[i]:offsets[i + 1]]`, ascending."""
 
     offsets: NDArray[np.uint32]
     """One number more than the cloud has indices."""
@@ -108,18 +140,30 @@ class SeenBy(NamedTuple):
     """Where the camera shows the point, x and y: shape (entries, 2)."""
     towards: NDArray[np.float32]
     """The direction of length 1 from the point to the camera: shape (entries, 3)."""
+    shape: tuple[int, int]
+    """How many points and how many cameras there are, those that see nothing included."""
+
+    def matrix(self, values: ArrayLike | None = None) -> csr_array:
+        """The matrix of points and cameras: `scipy.sparse.csr_array`. `values` has one for each entry; default 1."""
+        from scipy.sparse import csr_array
+
+        given = np.ones(len(self.cameras), np.int32) if values is None else np.asarray(values)
+        if given.shape != self.cameras.shape:
+            raise refusal("option", f"values must hold one number for each of {len(self.cameras)} entries, got the shape {given.shape}")
+        return csr_array((given, self.cameras, self.offsets), self.shape)
 
 
-def seen_by(length, views):
+def seen_by(length: int, views: list[tuple[Visibility, NDArray[np.float32]]]) -> SeenBy:
     """The `SeenBy` of views of a cloud of so many indices: of each, the `Visibility` and the directions to the camera."""
     order, offsets = by_point(length, [view.indices for view, _ in views])
     counts = [view.count for view, _ in views]
     cameras = np.repeat(np.arange(len(views), dtype=np.uint32), counts)[order]
     pixels = joined([view.pixels for view, _ in views], (0, 2))[order]
-    return SeenBy(offsets, cameras, pixels, joined([towards for _, towards in views], (0, 3))[order])
+    towards = joined([towards for _, towards in views], (0, 3))[order]
+    return SeenBy(offsets, cameras, pixels, towards, (length, len(views)))
 
 
-def by_point(length, lists):
+def by_point(length: int, lists: list[NDArray[np.uint32]]) -> tuple[NDArray[Any], NDArray[np.uint32]]:
     """The order of the entries of several lists of indices by index, and where those of each index begin."""
     indices = joined(lists, 0, np.uint32)
     if len(indices) >= 2**32:
@@ -129,11 +173,11 @@ def by_point(length, lists):
     return np.argsort(indices, kind="stable"), offsets
 
 
-def joined(arrays, empty, dtype=np.float32):
+def joined(arrays: list[Any], empty: Any, dtype: Any = np.float32) -> NDArray[Any]:
     return np.concatenate(arrays) if arrays else np.empty(empty, dtype)
 
 
-def orient_normals(normals, seen_by):
+def orient_normals(normals: ArrayLike, seen_by: SeenBy) -> NDArray[Any]:
     """Turns normals towards the cameras that see their points: the side that most of them look at.
 
     In a tie, the sum of the cosines decides. What no camera sees stays as it is, and so does a normal of zeros.
@@ -145,11 +189,8 @@ def orient_normals(normals, seen_by):
     """
     offsets = offsets_of(seen_by, "orient_normals", "towards")
     count = len(offsets) - 1
-    try:
-        normals = np.asarray(normals)
-    except ValueError:
-        normals = np.empty(0)
-    if normals.shape != (count, 3) or normals.dtype.kind not in "fiu":
+    normals = array(normals, "normals", "fiu", f"numbers of the shape ({count}, 3)")
+    if normals.shape != (count, 3):
         raise refusal("option", f"normals must be numbers of the shape ({count}, 3), got {normals.dtype} of {normals.shape}")
     normals = normals.astype(np.float32 if normals.dtype == np.float32 else np.float64)
     rows = np.repeat(np.arange(count), np.diff(offsets))
@@ -159,7 +200,7 @@ def orient_normals(normals, seen_by):
     return np.where(((votes < 0) | ((votes == 0) & (sums < 0)))[:, None], -normals, normals)
 
 
-def colmap_vis(seen_by):
+def colmap_vis(seen_by: SeenBy) -> bytes:
     """What COLMAP's `fused.ply.vis` says: which cameras see each point. `seen_by` is the answer of `PointCloud.seen_by`.
 
     Returns bytes: little-endian, the number of points in 64 bits, then for each point how many cameras see it, and their
@@ -170,7 +211,7 @@ def colmap_vis(seen_by):
     return np.array([len(offsets) - 1], "<u8").tobytes() + rows.astype("<u4").tobytes()
 
 
-def offsets_of(seen_by, asked, entries):
+def offsets_of(seen_by: SeenBy, asked: str, entries: str) -> NDArray[np.int64]:
     """The offsets of a `SeenBy`, which rise from 0 to the number of its entries."""
     offsets = np.asarray(seen_by.offsets, np.int64) if isinstance(seen_by, SeenBy) else np.empty(0)
     if not len(offsets) or offsets[0] != 0 or offsets[-1] != len(getattr(seen_by, entries)) or (np.diff(offsets) < 0).any():

@@ -6,8 +6,9 @@ import math
 
 import numpy as np
 
+from . import arguments
 from .answers import Calibration
-from .errors import refusal
+from .arguments import refusal
 
 #: So many of the points of each station must be seen.
 ENOUGH = 0.985
@@ -67,30 +68,16 @@ def _station(number, given, length):
         raise refusal("option", f"{name} has no viewpoint")
     if (indices is None) == (mask is None):
         raise refusal("option", f"{name} must have one of indices and mask")
-    place = _numbers(viewpoint, "fiu")
-    if place is None or place.shape != (3,) or not np.isfinite(place).all():
-        raise refusal("viewpoint", f"the viewpoint of {name} must be 3 finite numbers, got {viewpoint!r:.60}")
-    if mask is not None:
-        marks = _numbers(mask, "biu")
-        if marks is None or marks.shape != (length,):
+    place = arguments.place(viewpoint, f"the viewpoint of {name}")
+    if mask is None:
+        own = arguments.indices(indices, f"the indices of {name}", length)
+    else:
+        marks = arguments.mask(mask, f"the mask of {name}")
+        if marks.shape != (length,):
             raise refusal("option", f"{name} must have a mask of {length} truth values, one for each index")
         own = np.flatnonzero(marks)
-    else:
-        own = _numbers(indices, "iuf")
-        # An empty list is one of float.
-        if own is None or (own.size and (own.dtype.kind == "f" or own.ndim != 1 or (own < 0).any())):
-            raise refusal("option", f"the indices of {name} must be integers from 0 to {2**32 - 1}")
     if (own >= length).any():
         raise refusal("option", f"{name} has index {own[own >= length][0]}, which must be below {length}")
     if not own.size:
         raise refusal("option", f"{name} has no points")
     return place, own
-
-
-def _numbers(given, kinds):
-    """An array of numbers of these kinds, or None."""
-    try:
-        array = np.asarray(given)
-    except (TypeError, ValueError):
-        return None
-    return array if array.dtype.kind in kinds else None

@@ -7,19 +7,16 @@ import os
 from collections.abc import Callable, Iterable, Iterator
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ._native import Horizon, PointCloud, merge_visible
-from .errors import refusal
+from .arguments import refusal
+from .types import MergeOptions, Unpack
 
-if TYPE_CHECKING:
-    from typing_extensions import Unpack
-
-    from ._native import MergeOptions
-
+KINDS = (".laz", ".las", ".parquet", ".npy")
 #: So many points of a file are in memory at once.
 CHUNK = 1_000_000
 #: This share of all points makes the sample: for the scale not fewer than so many, for the horizon not more.
@@ -118,7 +115,7 @@ def _measured(job: tuple[int, Path, float]) -> Arrays:
     number, path, share = job
     random = np.random.default_rng(number)
     count, low, high, samples = 0, np.full(3, np.inf), np.full(3, -np.inf), [NOTHING[0]]
-    for points in _chunks(path):
+    for points in chunks(path):
         is_finite = np.isfinite(points).all(axis=1)
         if not is_finite.all():
             raise refusal("non-finite", f"{path} has points that are not finite, the first at index {count + is_finite.argmin()}")
@@ -135,7 +132,7 @@ def _screened(job: tuple[Path, int, NDArray[Any]], eyes: list[Any], options: dic
     found = [[NOTHING] for _ in eyes]
     # A tile whose box is hidden is not read.
     wanted = [k for k, horizon in enumerate(horizons) if low[0] <= high[0] and not horizon.hides_box(low, high)]
-    for points in _chunks(path) if wanted else ():
+    for points in chunks(path) if wanted else ():
         for k in wanted:
             left = horizons[k].screen(points)
             left = left[PointCloud(points[left]).visible_from(eyes[k], **options).indices]
@@ -144,11 +141,11 @@ def _screened(job: tuple[Path, int, NDArray[Any]], eyes: list[Any], options: dic
     return [np.concatenate(column) for parts in found for column in zip(*parts)]
 
 
-def _chunks(path: Path) -> Iterator[NDArray[Any]]:
+def chunks(path: Path) -> Iterator[NDArray[Any]]:
     """The positions in a file, float32 or float64, one part after another."""
     kind = path.suffix.lower()
-    if kind not in (".laz", ".las", ".parquet", ".npy"):
-        raise refusal("option", f"{path}: tiles must be .laz, .las, .parquet or .npy files")
+    if kind not in KINDS:
+        raise refusal("option", f"{path}: tiles must be {', '.join(KINDS)} files")
     try:
         for points in _read(path, kind):
             if points.shape[1:] != (3,) or points.dtype.kind not in "fiu":

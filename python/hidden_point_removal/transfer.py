@@ -4,26 +4,26 @@ from __future__ import annotations
 
 import inspect
 import os
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
 from ._native import PointCloud, _lenses
 from .answers import by_point, joined
-from .errors import refusal
+from .arguments import array as read_array
+from .arguments import listed, refusal
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
     from numpy.typing import ArrayLike, NDArray
-    from typing_extensions import Unpack
 
-    from ._native import Camera, Options
+    from .types import CameraLike, Options, Unpack
 
 
 def transfer(
     cloud: PointCloud,
-    cameras: Iterable[Camera],
+    cameras: Iterable[CameraLike],
     images: Iterable[ArrayLike | str | os.PathLike[str]],
     *,
     merge: Literal["median", "mean", "vote", "best"] | None = "mean",
@@ -66,10 +66,10 @@ def transfer(
     if all(options.get(name) is None for name in ("looks", "radius", "exponent", "inversion")):
         options["looks"] = 3
     options["scores"] = weigh == "score"
-    pairs = _lenses(cameras)
-    lenses = [lens for _, lens in pairs]
+    cameras = listed(cameras, "cameras")
+    lenses = _lenses(cameras)
     pictures, pixel = _pictures(images, lenses)
-    views = cloud._camera_views([camera for camera, _ in pairs], on_progress, **options)
+    views = cloud._camera_views(cameras, on_progress, **options)
     with np.errstate(all="ignore"):
         try:
             values, seen = _merged(len(cloud), views, lenses, pictures, (merge, weigh, SAMPLINGS[sampling]))
@@ -79,10 +79,15 @@ def transfer(
     return values.reshape(len(cloud), *pixel), seen
 
 
-# In place of **options, help() shows each of them.
-_shown = inspect.signature(transfer)
-_options = [one for one in inspect.signature(PointCloud.visible_from).parameters.values() if one.kind == one.KEYWORD_ONLY]
-transfer.__signature__ = _shown.replace(parameters=[*list(_shown.parameters.values())[:-1], *_options])
+def name_options(function: Callable[..., Any]) -> None:
+    """In place of **options, help() shows each of them."""
+    own = inspect.signature(function)
+    options = inspect.signature(PointCloud.visible_from).parameters.values()
+    named = [one for one in options if one.kind == one.KEYWORD_ONLY and one.name not in own.parameters]
+    function.__signature__ = own.replace(parameters=[*list(own.parameters.values())[:-1], *named])  # type: ignore[attr-defined]
+
+
+name_options(transfer)
 
 
 def _merged(length, views, lenses, pictures, how):
@@ -228,14 +233,11 @@ def _picture(given, name):
             given = np.asarray(Image.open(given))
         except Exception as problem:
             raise refusal("load", f"{name} cannot be read: {problem}") from problem
-    try:
-        array = np.asarray(given)
-    except (TypeError, ValueError):
-        array = np.empty(0)
+    words = "an array of numbers, (height, width) or (height, width, channels)"
+    array = read_array(given, name, "fiub", words)
     kind, size = array.dtype.kind, array.dtype.itemsize
-    if array.ndim not in (2, 3) or kind not in "fiub":
-        message = f"{name} must be an array of numbers, (height, width) or (height, width, channels)"
-        raise refusal("option", message)
+    if array.ndim not in (2, 3):
+        raise refusal("option", f"{name} must be {words}, got the shape {array.shape}")
     if kind == "u" and size == 1:
         return array
     is_single = size <= 2 or (kind == "f" and size == 4)

@@ -3,17 +3,15 @@
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use hidden_point_removal as core;
-use hidden_point_removal::{Camera, NonFinite, Options, Seat, Threads};
-use numpy::{IntoPyArray, PyArray1, PyArrayMethods};
+use hidden_point_removal::{Camera, CameraView, NonFinite, Options, Seat, Threads};
+use numpy::{IntoPyArray, PyArray1, PyArrayMethods, PyReadonlyArray1};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyType};
 
-use crate::arrays::{Points, Positions, indices as read_indices};
-use crate::failure::{option, refused};
+use crate::answers::{answer, camera_answer, option, warn_if_inverted};
+use crate::arguments::{Points, Positions, indices as read_indices};
 use crate::options::{self, Asked, How};
-use crate::seen_by;
-use crate::shared::Shared;
-use crate::visibility::{answer, camera_answer, warn_if_inverted};
+use crate::shared::{Shared, worked};
 
 /// A point cloud, prepared for visibility queries.
 ///
@@ -41,7 +39,8 @@ impl PointCloud {
         how: How,
         query: impl Send + FnOnce(Threads<'_>) -> Result<T, core::Error>,
     ) -> PyResult<T> {
-        self.cloud.ask(py, |cloud| {
+        let points = self.__len__(py)?.saturating_mul(how.more + 1);
+        self.cloud.ask(py, points, |cloud| {
             let threads = how.threads.unwrap_or_else(|| default_threads(cloud.len()));
             match how.mask {
                 Some(mask) => query(cloud.masked(&mask)?.with_threads(threads)?),
@@ -52,28 +51,28 @@ impl PointCloud {
 
     /// What each camera sees, by as many threads. Warns of poses that were probably given the wrong way round.
     pub fn camera_views<'py>(
-        &self,
-        py: Python<'py>,
+        slf: &Bound<'py, Self>,
         cameras: &[Camera],
         asked: &Asked,
         on_progress: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Vec<(Bound<'py, PyAny>, Bound<'py, PyAny>)>> {
-        let mut views = Vec::new();
-        self.in_groups(py, cameras, asked, on_progress, |cloud, group| {
-            views.extend(seen_by::views(cloud, group, &asked.options)?);
+        let mut found = Vec::new();
+        let own = slf.get();
+        own.in_groups(slf.py(), cameras, asked, on_progress, |cloud, group| {
+            found.extend(views(cloud, group, &asked.options)?);
             Ok(())
         })?;
-        views
-            .into_iter()
-            .map(|view| camera_answer(py, view))
-            .collect()
+        let answers = found.into_iter().map(|view| camera_answer(slf, view));
+        answers.collect()
     }
 
     /// Warns of each camera whose pose was probably given the wrong way round.
     pub fn warn_of_inverted(&self, py: Python<'_>, seats: &[Seat]) -> PyResult<()> {
         for seat in seats {
             if let Seat::Camera(camera) = seat {
-                let seems_inverted = self.cloud.ask(py, |cloud| cloud.seems_inverted(camera))?;
+                let seems_inverted = self
+                    .cloud
+                    .ask(py, 0, |cloud| cloud.seems_inverted(camera))?;
                 warn_if_inverted(py, seems_inverted)?;
             }
         }
@@ -100,7 +99,12 @@ impl PointCloud {
             .chunks(size)
             .chain(places.is_empty().then_some(places));
         let Some(listener) = on_progress else {
-            return self.ask(py, asked.how.clone(), |cloud| {
+            let more = places.len();
+            let how = How {
+                more,
+                ..asked.how.clone()
+            };
+            return self.ask(py, how, |cloud| {
                 groups.try_for_each(|group| query(cloud, group))
             });
         };
@@ -108,6 +112,7 @@ impl PointCloud {
         let (mut done, before) = (0, changes());
         for group in groups {
             self.ask(py, asked.how.clone(), |cloud| query(cloud, group))?;
+            py.check_signals()?;
             done += group.len();
             if done > 0 {
                 listener.call1((done as f64 / places.len() as f64,))?;
@@ -121,14 +126,50 @@ impl PointCloud {
 
     /// Reads the options of a view, and asks for it.
     pub fn view<'py>(
-        &self,
-        py: Python<'py>,
+        slf: &Bound<'py, Self>,
+        places: usize,
         given: Option<&Bound<'_, PyDict>>,
         query: impl Send + FnOnce(Threads<'_>, &Options) -> Result<core::Visibility, core::Error>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let Asked { options, how } = options::read(py, given)?;
-        answer(py, self.ask(py, how, |cloud| query(cloud, &options))?)
+        let Asked { options, mut how } = options::read(slf.py(), given)?;
+        how.more = places;
+        let seen = slf.get().ask(slf.py(), how, |cloud| query(cloud, &options));
+        answer(slf, seen?)
     }
+
+    fn ask_core<T: Send>(
+        &self,
+        py: Python<'_>,
+        query: impl Send + FnOnce(&core::PointCloud) -> Result<T, core::Error>,
+    ) -> PyResult<T> {
+        self.cloud.ask(py, self.__len__(py)?, query)
+    }
+}
+
+/// What some cameras see. Each has a thread of its own; a single one is divided among all threads.
+fn views(
+    cloud: Threads<'_>,
+    cameras: &[Camera],
+    options: &Options,
+) -> Result<Vec<CameraView>, core::Error> {
+    if let [camera] = cameras {
+        return Ok(vec![cloud.visible_from_camera(camera, options)?]);
+    }
+    let stop = core::stop();
+    std::thread::scope(|scope| {
+        let view = |camera| {
+            core::stop_by(stop.clone());
+            (*cloud).visible_from_camera(camera, options)
+        };
+        let spawn = |camera| scope.spawn(move || view(camera));
+        let asked: Vec<_> = cameras.iter().map(spawn).collect();
+        let answers = asked.into_iter().map(|thread| {
+            thread
+                .join()
+                .unwrap_or_else(|fault| std::panic::resume_unwind(fault))
+        });
+        answers.collect()
+    })
 }
 
 /// What pickle makes a cloud of: the class, its arguments, and the indices to remove.
@@ -160,11 +201,10 @@ impl PointCloud {
         };
         let positions = Positions::read(positions, "positions")?;
         let points = positions.points();
-        let made = py.detach(|| match points {
+        let cloud = worked(py, points.len(), || match points {
             Points::Single(points) => core::PointCloud::with_non_finite(points, choice),
             Points::Double(points) => core::PointCloud::with_non_finite(points, choice),
-        });
-        let cloud = made.map_err(|error| refused(py, error))?;
+        })?;
         Ok(Self {
             cloud: Shared::new(cloud),
             non_finite,
@@ -185,14 +225,14 @@ impl PointCloud {
     /// The mean distance of a point to its 6 nearest points: float, in the cloud's units.
     #[getter]
     pub fn spacing(&self, py: Python<'_>) -> PyResult<f64> {
-        self.cloud.ask(py, core::PointCloud::spacing)
+        self.ask_core(py, core::PointCloud::spacing)
     }
 
     /// How far measured points lie off their surface: float, one standard deviation, in the cloud's units. 0 where
     /// nothing tells of noise.
     #[getter]
     fn noise(&self, py: Python<'_>) -> PyResult<f64> {
-        self.cloud.ask(py, core::PointCloud::noise)
+        self.ask_core(py, core::PointCloud::noise)
     }
 
     /// Adds points, all or none. They take the next indices.
@@ -202,7 +242,8 @@ impl PointCloud {
         let positions = Positions::read(positions, "positions")?;
         let points = positions.points();
         self.changes.fetch_add(1, Ordering::Relaxed);
-        self.cloud.change(py, |cloud| match points {
+        let every = self.__len__(py)? + points.len();
+        self.cloud.change(py, every, |cloud| match points {
             Points::Single(points) => cloud.append(points),
             Points::Double(points) => cloud.append(points),
         })
@@ -210,12 +251,14 @@ impl PointCloud {
 
     /// Removes points. They are never visible again, and their indices are never given again.
     ///
-    /// indices: list or array of int. Those that were removed before are ignored.
+    /// indices: list or array of int, or of bool, one for each index. Those that were removed before are ignored.
     #[pyo3(signature = (indices))]
     fn remove(&self, py: Python<'_>, indices: &Bound<'_, PyAny>) -> PyResult<()> {
-        let removed = read_indices(indices, "indices")?;
+        let length = self.__len__(py)?;
+        let removed = read_indices(indices, "indices", length)?;
         self.changes.fetch_add(1, Ordering::Relaxed);
-        self.cloud.change(py, |cloud| cloud.remove(&removed))
+        self.cloud
+            .change(py, length, |cloud| cloud.remove(&removed))
     }
 
     /// For pickle and copy: the arguments of a new cloud, and the indices to remove from it.
@@ -243,15 +286,28 @@ impl PointCloud {
             })
         };
         let rows: Vec<[f64; 3]> = (0..).zip(positions).map(place).collect();
-        let count = rows.len();
-        let positions = rows.into_flattened().into_pyarray(py).reshape([count, 3])?;
-        let precision = if is_single { "float32" } else { "float64" };
-        let positions = positions.call_method1("astype", (precision,))?;
+        let positions = in_precision(py, rows, is_single)?;
         Ok((
             slf.get_type(),
             (positions, own.non_finite),
             removed.into_pyarray(py),
         ))
+    }
+
+    /// The positions of some points, in the cloud's precision. NaN for those that were removed.
+    fn _positions_of<'py>(
+        &self,
+        py: Python<'py>,
+        indices: PyReadonlyArray1<'_, u32>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let indices = indices.as_array().to_vec();
+        let (positions, is_single) = self.ask_core(py, |cloud| {
+            let every = cloud.positions()?;
+            let of = |index: u32| every[index as usize].unwrap_or([f64::NAN; 3]);
+            let positions: Vec<_> = indices.into_iter().map(of).collect();
+            Ok((positions, cloud.is_single()))
+        })?;
+        in_precision(py, positions, is_single)
     }
 
     fn __setstate__(&self, py: Python<'_>, removed: &Bound<'_, PyAny>) -> PyResult<()> {
@@ -261,6 +317,17 @@ impl PointCloud {
     fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
         Ok(format!("PointCloud({} points)", self.__len__(py)?))
     }
+}
+
+fn in_precision<'py>(
+    py: Python<'py>,
+    rows: Vec<[f64; 3]>,
+    is_single: bool,
+) -> PyResult<Bound<'py, PyAny>> {
+    let count = rows.len();
+    let array = rows.into_flattened().into_pyarray(py).reshape([count, 3])?;
+    let precision = if is_single { "float32" } else { "float64" };
+    array.call_method1("astype", (precision,))
 }
 
 /// All cores for clouds from 200,000 points on: a second thread gains too little for smaller ones.

@@ -6,11 +6,10 @@ use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::arrays::{Points, Positions, place};
-use crate::failure::{problem, refused};
+use crate::answers::{problem, refused, shown_inversion};
+use crate::arguments::{Points, Positions, place};
 use crate::options;
 use crate::shared::Shared;
-use crate::visibility::shown_inversion;
 
 /// The hull of some points of a cloud, as seen from one viewpoint. What it hides is hidden in the whole cloud.
 ///
@@ -71,10 +70,11 @@ impl Horizon {
     fn add(&self, py: Python<'_>, positions: &Bound<'_, PyAny>) -> PyResult<()> {
         let positions = Positions::read(positions, "positions")?;
         let points = positions.points();
-        self.horizon.change(py, |horizon| match points {
-            Points::Single(points) => horizon.add(points),
-            Points::Double(points) => horizon.add(points),
-        })
+        self.horizon
+            .change(py, points.len(), |horizon| match points {
+                Points::Single(points) => horizon.add(points),
+                Points::Double(points) => horizon.add(points),
+            })
     }
 
     /// The points that the horizon does not hide.
@@ -89,7 +89,7 @@ impl Horizon {
     ) -> PyResult<Bound<'py, PyArray1<u32>>> {
         let positions = Positions::read(positions, "positions")?;
         let points = positions.points();
-        let left = self.horizon.ask(py, |horizon| match points {
+        let left = self.horizon.ask(py, points.len(), |horizon| match points {
             Points::Single(points) => horizon.screen(points),
             Points::Double(points) => horizon.screen(points),
         })?;
@@ -110,12 +110,13 @@ impl Horizon {
                 .map_err(|error| problem(py, "option", error.value(py).to_string()))
         };
         let (min, max) = (corner(min, "min")?, corner(max, "max")?);
-        self.horizon.ask(py, |horizon| horizon.hides_box(min, max))
+        self.horizon
+            .ask(py, 0, |horizon| horizon.hides_box(min, max))
     }
 
     /// The points that were added and are visible among them: float64, shape (m, 3).
     fn visible<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let points = self.horizon.ask(py, core::Horizon::visible)?;
+        let points = self.horizon.ask(py, 0, core::Horizon::visible)?;
         let count = points.len();
         points.into_flattened().into_pyarray(py).reshape([count, 3])
     }

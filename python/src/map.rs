@@ -6,10 +6,9 @@ use numpy::{IntoPyArray, PyArray1, ToPyArray};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::arrays::{Points, Positions, place};
-use crate::camera;
-use crate::failure::{option, refused};
-use crate::options::{count, number, shown};
+use crate::answers::{option, refused, shown};
+use crate::arguments::{Points, Positions, camera, place};
+use crate::options::{count, number};
 
 /// A map of directions around a viewpoint. It tells which points are certainly hidden: here, or in a shader.
 ///
@@ -113,7 +112,7 @@ fn cone(towards: &Bound<'_, PyAny>) -> PyResult<([f64; 3], f64)> {
     };
     let entries = towards.cast::<PyDict>().map_err(|_| wrong())?;
     match (entries.get_item("direction")?, entries.get_item("angle")?) {
-        (None, None) => camera::read(towards, "towards")?
+        (None, None) => camera(towards, "towards")?
             .cone()
             .map_err(|error| refused(py, error)),
         (Some(direction), Some(angle)) if entries.len() == 2 => {

@@ -1,12 +1,11 @@
 //! Keyword arguments as options of a view.
 
 use hidden_point_removal::{Exponential, Inversion, Options, Radius, Within};
-use numpy::PyReadonlyArray1;
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict};
 
-use crate::arrays::kind_of;
-use crate::failure::option;
+use crate::answers::{option, shown};
+use crate::arguments::{corners, mask};
 
 const NAMES: [&str; 8] = [
     "radius",
@@ -18,6 +17,18 @@ const NAMES: [&str; 8] = [
     "within",
     "threads",
 ];
+
+/// The signature of a question that takes the options of a view, in the form in which Python reads it from a docstring.
+/// Inside, the options are one dictionary, so that an unknown one is refused as any bad input is.
+macro_rules! asks {
+    ($head:literal) => {
+        concat!(
+            $head,
+            ", radius=None, exponent=None, inversion=None, looks=None, scores=False, thickness=None, within=None, ",
+            "threads=None)\n--\n"
+        )
+    };
+}
 
 /// The options of a view.
 #[derive(Default)]
@@ -33,6 +44,8 @@ pub struct How {
     pub mask: Option<Vec<bool>>,
     /// How many threads compute. Without a number, the cloud's size decides.
     pub threads: Option<usize>,
+    /// How many places are asked about, beside the first.
+    pub more: usize,
 }
 
 /// Reads the options of a question that is not to one cloud. The core refuses a choice of points there.
@@ -138,7 +151,7 @@ fn within(
         .cast::<PyDict>()
         .map_err(|_| wrong(format!("it must be a dictionary, got {}", shown(value))))?;
     let mut chosen = Within::default();
-    let mut mask = None;
+    let mut chosen_mask = None;
     for (name, value) in entries.iter() {
         if value.is_none() {
             continue;
@@ -152,20 +165,9 @@ fn within(
                 chosen.distance = Some(distance);
             }
             "box" => {
-                let corners: Option<Vec<Vec<f64>>> = value.extract().ok();
-                let bounds = corners.and_then(|corners| {
-                    let [min, max] = <[Vec<f64>; 2]>::try_from(corners).ok()?;
-                    Some([min.try_into().ok()?, max.try_into().ok()?])
-                });
-                let bounds = bounds
-                    .ok_or_else(|| wrong("box must be two corners of 3 numbers each".into()))?;
-                chosen.bounds = Some(bounds);
+                chosen.bounds = Some(corners(&value, "within: box")?);
             }
-            "mask" => {
-                mask = Some(truths(py, &value).ok_or_else(|| {
-                    wrong("mask must be a list of truth values, one for each index".into())
-                })?)
-            }
+            "mask" => chosen_mask = Some(mask(&value, "within: mask")?),
             _ => {
                 return Err(wrong(format!(
                     "unknown entry {name}; the entries are distance, box, mask"
@@ -176,19 +178,7 @@ fn within(
     if chosen != Within::default() {
         options.within = Some(chosen);
     }
-    Ok(mask)
-}
-
-/// Truth values, or integers of which 0 is false.
-pub fn truths(py: Python<'_>, value: &Bound<'_, PyAny>) -> Option<Vec<bool>> {
-    let numpy = py.import("numpy").ok()?;
-    let array = numpy.call_method1("asarray", (value,)).ok()?;
-    if !["b", "i", "u"].contains(&&*kind_of(&array).ok()?) {
-        return None;
-    }
-    let array = array.call_method1("astype", ("bool",)).ok()?;
-    let array: PyReadonlyArray1<'_, bool> = array.extract().ok()?;
-    Some(array.as_array().to_vec())
+    Ok(chosen_mask)
 }
 
 /// A rule for the radius, or a number.
@@ -266,12 +256,4 @@ fn truth(py: Python<'_>, name: &str, value: &Bound<'_, PyAny>) -> PyResult<bool>
             format!("{name} must be True or False, got {}", shown(value)),
         )
     })
-}
-
-/// A short text of a value, for messages.
-pub fn shown(value: &Bound<'_, PyAny>) -> String {
-    let text = value
-        .repr()
-        .map_or_else(|_| "?".into(), |text| text.to_string());
-    text.chars().take(60).collect()
 }

@@ -1,13 +1,13 @@
 //! One answer from the answers of parts.
 
 use hidden_point_removal::{Options, merge_visible_u64};
-use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
+use numpy::{IntoPyArray, PyArray1};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::arrays::{Points, Positions, listed, place};
-use crate::failure::{option, refused};
+use crate::arguments::{Points, Positions, ids as read_ids, place};
 use crate::options;
+use crate::shared::worked;
 
 /// The ids of the points that are visible in a whole cloud. Exact: visible(A + B) = visible(visible(A) + visible(B)).
 ///
@@ -35,24 +35,12 @@ pub fn merge_visible<'py>(
     let mut ids = Vec::with_capacity(parts.len());
     for (number, (own, numbers)) in parts.iter().enumerate() {
         positions.push(Positions::read(own, &format!("parts[{number}]"))?);
-        ids.push(read_ids(numbers, number)?);
+        ids.push(read_ids(numbers, &format!("the ids of parts[{number}]"))?);
     }
     let points: Vec<Points<'_>> = positions.iter().map(Positions::points).collect();
-    let merged = py.detach(|| merge(&points, &ids, viewpoint, &options));
-    Ok(merged.map_err(|error| refused(py, error))?.into_pyarray(py))
-}
-
-fn read_ids(argument: &Bound<'_, PyAny>, number: usize) -> PyResult<Vec<u64>> {
-    let py = argument.py();
-    if let Ok(array) = argument.extract::<PyReadonlyArray1<'_, u64>>() {
-        return Ok(array.as_array().to_vec());
-    }
-    listed(argument).extract::<Vec<u64>>().map_err(|_| {
-        option(
-            py,
-            format!("the ids of parts[{number}] must be integers from 0 to 2**64 - 1"),
-        )
-    })
+    let count = points.iter().map(Points::len).sum();
+    let merged = worked(py, count, || merge(&points, &ids, viewpoint, &options))?;
+    Ok(merged.into_pyarray(py))
 }
 
 fn merge(

@@ -1,16 +1,15 @@
 //! Questions to a cloud about many viewpoints, and what is seen all around one.
 
-use hidden_point_removal::{Choice, PanoramaOptions, Placing};
+use hidden_point_removal::{Camera, Choice, PanoramaOptions, Placing};
 use numpy::{IntoPyArray, PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::arrays::{numbers, place};
-use crate::camera;
+use crate::answers::{option, python, refused};
+use crate::arguments::{self, numbers, place};
 use crate::cloud::PointCloud;
-use crate::failure::{option, refused};
+use crate::map::{self, VisibilityMap};
 use crate::options::{self, Asked, How, refuse_scores};
-use crate::visibility::python;
 
 #[pymethods]
 impl PointCloud {
@@ -31,7 +30,7 @@ impl PointCloud {
         on_progress: Option<&Bound<'_, PyAny>>,
         options: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Bound<'py, PyArray1<u32>>> {
-        let viewpoints = camera::seats(viewpoints, "viewpoints")?;
+        let viewpoints = arguments::seats(viewpoints, "viewpoints")?;
         let asked = options::read(py, options)?;
         let mut counts = Vec::new();
         self.in_groups(py, &viewpoints, &asked, on_progress, |cloud, group| {
@@ -70,7 +69,7 @@ impl PointCloud {
         on_progress: Option<&Bound<'_, PyAny>>,
         options: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let candidates = camera::seats(candidates, "candidates")?;
+        let candidates = arguments::seats(candidates, "candidates")?;
         let asked = options::read(py, options)?;
         let weights = weights.map(|given| numbers(given, "weights")).transpose()?;
         let wrong = || option(py, "share must be a number".into());
@@ -164,33 +163,31 @@ impl PointCloud {
     /// on_progress: is called with the share that is done. It must not change the cloud. An exception in it
     ///     ends the question.
     /// Options: those of `visible_from`. Not with scores.
-    /// Returns a `SeenBy`: `offsets`, `cameras`, `pixels` and `towards`, the rows of a sparse matrix.
+    /// Returns a `SeenBy`: `offsets`, `cameras`, `pixels`, `towards`, and `matrix()`.
     #[pyo3(signature = (cameras, *, on_progress=None, **options), text_signature = None)]
     fn seen_by<'py>(
-        &self,
-        py: Python<'py>,
+        slf: &Bound<'py, Self>,
         cameras: &Bound<'_, PyAny>,
         on_progress: Option<&Bound<'_, PyAny>>,
         options: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let cameras = camera::cameras(cameras)?;
+        let (py, cameras) = (slf.py(), arguments::cameras(cameras)?);
         let asked = options::read(py, options)?;
         refuse_scores(py, &asked.options, "seen_by")?;
-        let views = self.camera_views(py, &cameras, &asked, on_progress)?;
-        python(py, "seen_by")?.call1((self.__len__(py)?, views))
+        let views = Self::camera_views(slf, &cameras, &asked, on_progress)?;
+        python(py, "seen_by")?.call1((slf.get().__len__(py)?, views))
     }
 
     /// The answer of each camera, and the direction from each visible point to it.
     #[pyo3(signature = (cameras, on_progress=None, **options))]
     fn _camera_views<'py>(
-        &self,
-        py: Python<'py>,
+        slf: &Bound<'py, Self>,
         cameras: &Bound<'_, PyAny>,
         on_progress: Option<&Bound<'_, PyAny>>,
         options: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Vec<(Bound<'py, PyAny>, Bound<'py, PyAny>)>> {
-        let asked = options::read(py, options)?;
-        self.camera_views(py, &camera::cameras(cameras)?, &asked, on_progress)
+        let asked = options::read(slf.py(), options)?;
+        Self::camera_views(slf, &arguments::cameras(cameras)?, &asked, on_progress)
     }
 
     #[doc = asks!("calibrate($self, stations, *")]
@@ -211,4 +208,48 @@ impl PointCloud {
         let module = slf.py().import("hidden_point_removal.calibration")?;
         module.call_method1("calibrated", (slf, stations, given))
     }
+
+    #[doc = asks!("visibility_map($self, viewpoint, *, points=32768, corners=131072, towards=None, origin=None")]
+    /// A map of directions, which tells for any number of places whether they are certainly hidden.
+    ///
+    /// viewpoint: 3 numbers.
+    /// points: int, at least 16. So many points has the map's hull at most.
+    /// corners: int, from 64 to 4194304. So many directions has the map at most.
+    /// towards: a camera, or a dict of direction (3 numbers) and angle (the full opening of a cone, in degrees). Only
+    ///     these directions get points and corners.
+    /// origin: 3 numbers that positions in a shader are relative to. Default: 0 for float32, else the middle of the
+    ///     cloud's box.
+    /// Options: those of `visible_from`. Not with scores and "opposite".
+    /// Returns a `VisibilityMap`.
+    #[pyo3(
+        signature = (viewpoint, *, points=None, corners=None, towards=None, origin=None, **options),
+        text_signature = None
+    )]
+    #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
+    fn visibility_map(
+        &self,
+        py: Python<'_>,
+        viewpoint: &Bound<'_, PyAny>,
+        points: Option<&Bound<'_, PyAny>>,
+        corners: Option<&Bound<'_, PyAny>>,
+        towards: Option<&Bound<'_, PyAny>>,
+        origin: Option<&Bound<'_, PyAny>>,
+        options: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<VisibilityMap> {
+        let viewpoint = place(viewpoint, "viewpoint")?;
+        let choices = map::choices(py, points, corners, towards, origin)?;
+        let Asked { options, how } = options::read(py, options)?;
+        let made = self.ask(py, how, |cloud| {
+            cloud.visibility_map(viewpoint, &options, &choices)
+        })?;
+        Ok(VisibilityMap::new(made))
+    }
+}
+
+/// Each camera, with its fx, fy, cx, cy, width and height.
+#[pyfunction]
+#[pyo3(name = "_lenses")]
+pub fn lenses(given: &Bound<'_, PyAny>) -> PyResult<Vec<[f64; 6]>> {
+    let lens = |own: &Camera| [own.fx, own.fy, own.cx, own.cy, own.width, own.height];
+    Ok(arguments::cameras(given)?.iter().map(lens).collect())
 }

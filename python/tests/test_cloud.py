@@ -406,3 +406,20 @@ def test_panorama():
     with pytest.raises(HprError) as refused:
         dome.panorama([0, 0, 0], 8, 8, up=[0, 0, 0])
     assert refused.value.code == "viewpoint"
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+def test_an_answer_is_an_index(dtype):
+    points = bumpy(900, dtype=dtype)
+    cloud = PointCloud(points)
+    seen = cloud.visible_from(VIEWPOINT)
+    assert np.array_equal(points[seen], points[seen.indices]) and np.array_equal(points[~seen], points[~seen.mask()])
+    assert np.asarray(seen).dtype == np.int64 and np.asarray(seen, np.uint8).dtype == np.uint8
+    assert list(seen) == seen.indices.tolist() and seen[-1] == seen.indices[-1]
+    assert seen.points.dtype == dtype and np.array_equal(seen.points, points[seen])
+    cloud.remove([seen[3]])
+    assert np.isnan(seen.points).any(axis=1).tolist() == [number == 3 for number in range(len(seen))]
+    assert PointCloud(points).visible_from([0, 0, 0], within={"distance": 0.0}).points.shape == (0, 3)
+    shown = seen._repr_html_()
+    assert f"<b>{seen.count}</b> of 900" in shown and f"{seen.radius:.6g}" in shown
+    assert "looks" in cloud.visible_from(VIEWPOINT, looks=2)._repr_html_()

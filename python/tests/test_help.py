@@ -18,7 +18,7 @@ def public():
     for name in hpr.__all__:
         whole = getattr(hpr, name)
         yield name, whole
-        if inspect.isclass(whole) and whole.__module__.startswith("hidden_point_removal") and whole is not HprError:
+        if inspect.isclass(whole) and whole.__module__.startswith("hidden_point_removal") and not issubclass(whole, (HprError, dict)):
             for member in dir(whole):
                 if not member.startswith("_"):
                     yield f"{name}.{member}", getattr(whole, member)

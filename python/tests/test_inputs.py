@@ -1,34 +1,174 @@
-"""Points are read as other libraries hold them."""
+"""Arguments are read as other libraries hold them, or refused: never misread."""
+
+import signal
+import subprocess
+import sys
+import textwrap
 
 import numpy as np
 import pytest
 
-from hidden_point_removal import HprError, PointCloud, hidden_point_removal
+from hidden_point_removal import Horizon, HprError, PointCloud, hidden_point_removal, merge_visible, orient_normals, transfer
 
 VIEWPOINT = [0.0, 0.0, 4.0]
 POINTS = np.random.default_rng(1).normal(size=(500, 3))
 SEEN = PointCloud(POINTS).visible_from(VIEWPOINT)
 
+# Whole numbers, which each type holds. 40 points.
+WHOLE = np.random.default_rng(2).integers(-9, 10, (40, 3))
+EYE = [3, 5, 40]
+MASK = np.arange(40) % 3 == 0
+POSE = [[1, 0, 0, 0], [0, -1, 0, 0], [0, 0, -1, 60], [0, 0, 0, 1]]
+LENS = {"fx": 50, "fy": 50, "cx": 20, "cy": 15, "width": 40, "height": 30}
+CAMERA = {"camera_to_world": POSE, **LENS}
+
+
+def cloud():
+    return PointCloud(WHOLE)
+
+
+def removed(given):
+    own = cloud()
+    own.remove(given)
+    return own.visible_from(EYE).indices
+
+
+def grown(given):
+    own = cloud()
+    own.append(given)
+    return own.visible_from(EYE).indices
+
+
+def screened(given):
+    horizon = Horizon(EYE, radius=900)
+    horizon.add(given)
+    return horizon.screen(given)
+
+
+def seen_by(camera):
+    return cloud().seen_by([camera]).offsets
+
+
+#: Each argument that is an array: what it holds, an answer that depends on it, and a good value.
+ARGUMENTS = {
+    "positions": ("real", lambda v: PointCloud(v).visible_from(EYE).indices, WHOLE),
+    "append": ("real", grown, WHOLE[::-1] + 1),
+    "sees": ("real", lambda v: cloud().sees(EYE, v), WHOLE * 2),
+    "hides": ("real", lambda v: cloud().visibility_map(EYE).hides(v), WHOLE),
+    "horizon": ("real", screened, WHOLE),
+    "merge": ("real", lambda v: merge_visible([(v, range(40))], EYE, radius=900), WHOLE),
+    "viewpoint": ("real", lambda v: cloud().visible_from(v).indices, EYE),
+    "viewpoint (3, 1)": ("real", lambda v: cloud().visible_from(v).indices, np.reshape(EYE, (3, 1))),
+    "viewpoints": ("real", lambda v: cloud().coverage(v), [EYE, [0, 50, 0]]),
+    "candidates": ("real", lambda v: cloud().place_viewpoints(v).seen, [EYE, [0, 50, 0]]),
+    "any": ("real", lambda v: cloud().visible_from_any(v).indices, [EYE, [0, 50, 0]]),
+    "direction": ("real", lambda v: cloud().visible_from_direction(v).indices, [0, 1, -2]),
+    "up": ("real", lambda v: cloud().panorama(EYE, 8, 4, up=v).ranges, [0, 1, 2]),
+    "origin": ("real", lambda v: cloud().visibility_map(EYE, origin=v).uniforms["hprViewpoint"], [1, 2, 3]),
+    "lights": ("real", lambda v: cloud().illuminate(v), [EYE, [0, 50, 0]]),
+    "box": ("real", lambda v: cloud().visible_from(EYE, within={"box": v}).indices, [[-9, -9, 0], [9, 9, 9]]),
+    "hides_box": ("real", lambda v: Horizon(EYE, radius=900).hides_box(v, [9, 9, 9]), [-9, -9, -9]),
+    "pose": ("real", lambda v: seen_by({"camera_to_world": v, **LENS}), POSE),
+    "pose (3, 4)": ("real", lambda v: seen_by({"camera_to_world": v, **LENS}), POSE[:3]),
+    "K": ("real", lambda v: seen_by({"camera_to_world": POSE, "K": v, "width": 40, "height": 30}), [[50, 0, 20], [0, 50, 15], [0, 0, 1]]),
+    "distortion": ("real", lambda v: seen_by({**CAMERA, "distortion": v}), [1, 0, 0, 0]),
+    "normals": ("real", lambda v: orient_normals(v, cloud().seen_by([CAMERA])), WHOLE),
+    "indices": ("index", removed, [1, 2, 7, 39]),
+    "station": ("index", lambda v: cloud().calibrate([{"viewpoint": EYE, "indices": v}]).recall, [1, 2, 7, 39]),
+    "ids": ("whole", lambda v: merge_visible([(WHOLE[:4], v)], EYE, radius=900), [1, 2, 7, 39]),
+    "triangles": ("whole", lambda v: cloud().illuminate([EYE], triangles=v), [[1, 2, 7], [3, 4, 39]]),
+    "mask": ("mask", lambda v: cloud().visible_from(EYE, within={"mask": v}).indices, MASK),
+    "station's mask": ("mask", lambda v: cloud().calibrate([{"viewpoint": EYE, "mask": v}]).recall, MASK),
+    "weights": ("weight", lambda v: cloud().place_viewpoints([EYE, [0, 50, 0]], weights=v).gains, MASK),
+    "images": ("weight", lambda v: transfer(cloud(), [CAMERA], [v])[0], np.arange(1200).reshape(30, 40) % 2),
+}
+NUMBERS = [bool, *(f"{kind}{bits}" for kind in ("int", "uint") for bits in (8, 16, 32, 64)), "float16", "float32", "float64", ">f8"]
+TAKEN = {"real": "iuf", "index": "iub", "whole": "iu", "mask": "biu", "weight": "biuf"}
+
+
+def forms(array):
+    """The same array as others hold it."""
+    yield array
+    yield np.asfortranarray(array)
+    yield np.ma.array(array, mask=False)
+    if array.dtype.str[0] != ">":
+        yield memoryview(array)
+        yield array.tolist() if array.dtype != bool else array
+        try:
+            import torch
+
+            yield torch.from_numpy(np.array(array))
+        except (ImportError, TypeError):
+            pass
+
+
+@pytest.mark.filterwarnings("ignore:next to no points")
+@pytest.mark.parametrize("number", NUMBERS)
+@pytest.mark.parametrize("name", ARGUMENTS)
+def test_each_array_is_read_or_refused(name, number):
+    kind, ask, good = ARGUMENTS[name]
+    good = np.asarray(good)
+    expected, dtype = ask(good), np.dtype(number)
+    if dtype.kind == "u" and good.min() < 0:
+        return
+    given = good.astype(dtype)
+    # Truth values are a mask where indices are wanted; of another length than the cloud, they are refused.
+    taken = dtype.kind in TAKEN[kind] and not (kind == "index" and dtype.kind == "b")
+    for form in forms(given):
+        if taken:
+            assert np.array_equal(ask(form), expected, equal_nan=name == "images"), form
+        else:
+            with pytest.raises(HprError):
+                ask(form)
+    if kind == "index" and dtype.kind == "b":
+        assert np.array_equal(ask(np.isin(np.arange(40), good)), expected)
+
+
+@pytest.mark.parametrize("name", ARGUMENTS)
+def test_masked_and_structured_arrays_are_refused(name):
+    kind, ask, good = ARGUMENTS[name]
+    good = np.asarray(good)
+    masked = np.ma.array(good, mask=np.arange(good.size).reshape(good.shape) == 1)
+    structured = np.zeros(len(good), [("a", "f8"), ("b", "f8")])
+    for given in (masked, structured, np.full(good.shape, "1"), good.astype(complex), np.full(good.shape, None), "text", b"bytes", object()):
+        if given is masked and name == "hides":
+            # A coordinate that is not known is not finite, and so not hidden.
+            continue
+        with pytest.raises(HprError):
+            ask(given)
+
 
 class Cloud:
     """As in Open3D: the points are a sequence that NumPy can read."""
 
-    def __init__(self, points):
-        self.points = points
+    def __init__(self, points, name="points"):
+        setattr(self, name, points)
 
 
 class Tensor:
-    """As in torch: `__array__`, and `points` that are something else."""
+    """As in torch: `__array__`, and `points` that are something else. Torch says what to do with tensors elsewhere."""
 
     points = "none"
 
+    def __init__(self, hint=None):
+        self.hint = hint
+
     def __array__(self, dtype=None, copy=None):
+        if self.hint:
+            raise TypeError(self.hint)
         return POINTS if dtype is None else POINTS.astype(dtype)
 
 
 class Lazy:
     def numpy(self):
         return POINTS
+
+
+def fields(names):
+    table = np.zeros(500, [(name, "f8") for name in names])
+    for name, column in zip(names, POINTS.T):
+        table[name] = column
+    return table
 
 
 @pytest.mark.parametrize(
@@ -39,10 +179,16 @@ class Lazy:
         [[*point, 7, 8] for point in POINTS.tolist()],
         Cloud(POINTS),
         Cloud(POINTS.tolist()),
+        Cloud(POINTS, "xyz"),
+        Cloud(POINTS, "vertices"),
+        Cloud({"positions": Lazy()}, "point"),
         Tensor(),
         Lazy(),
+        fields(["x", "y", "z", "intensity"]),
+        fields(["X", "Y", "Z"]),
+        {f"cartesian{axis}": column for axis, column in zip("XYZ", POINTS.T)},
     ],
-    ids=["columns", "features", "lists", "cloud", "cloud of lists", "tensor", "numpy()"],
+    ids=["columns", "features", "lists", "cloud", "lists", "laspy", "trimesh", "open3d.t", "tensor", "numpy()", "fields", "FIELDS", "pye57"],
 )
 def test_points_are_read_as_they_are(given):
     assert np.array_equal(PointCloud(given).visible_from(VIEWPOINT).indices, SEEN.indices)
@@ -51,6 +197,28 @@ def test_points_are_read_as_they_are(given):
     assert len(cloud) == 501
     assert np.array_equal(hidden_point_removal(given, VIEWPOINT, SEEN.radius), SEEN.indices)
     assert np.array_equal(hidden_point_removal(given, VIEWPOINT), SEEN.indices)
+
+
+def test_a_file_is_read(tmp_path):
+    np.save(tmp_path / "points.npy", POINTS.astype(np.float32))
+    assert len(PointCloud(tmp_path / "points.npy")) == len(PointCloud(str(tmp_path / "points.npy"))) == 500
+
+
+def test_what_torch_says_is_passed_on():
+    hint = "can't convert cuda:0 device type tensor to numpy. Use Tensor.cpu() to copy the tensor to host memory first."
+    for ask in (PointCloud, cloud().visible_from, cloud().remove, lambda v: seen_by({"camera_to_world": v, **LENS})):
+        with pytest.raises(HprError, match=r"Use Tensor\.cpu\(\)"):
+            ask(Tensor(hint))
+
+
+def test_torch():
+    torch = pytest.importorskip("torch")
+    tensor = torch.from_numpy(POINTS)
+    seen = PointCloud(tensor).visible_from(torch.tensor(VIEWPOINT))
+    assert np.array_equal(seen.indices, SEEN.indices)
+    assert torch.equal(tensor[seen], tensor[torch.from_numpy(seen.mask())]) and torch.equal(tensor[~seen], tensor[~torch.from_numpy(seen.mask())])
+    with pytest.raises(HprError, match="detach"):
+        PointCloud(tensor.requires_grad_())
 
 
 def test_columns_keep_their_precision_and_their_masks():
@@ -63,12 +231,6 @@ def test_columns_keep_their_precision_and_their_masks():
     assert PointCloud(masked, non_finite="skip").skipped == 1
 
 
-def test_torch_tensors():
-    torch = pytest.importorskip("torch")
-    tensor = torch.from_numpy(POINTS)
-    assert np.array_equal(PointCloud(tensor).visible_from(torch.tensor(VIEWPOINT)).indices, SEEN.indices)
-
-
 @pytest.mark.parametrize(
     ("code", "given"),
     [
@@ -77,9 +239,48 @@ def test_torch_tensors():
         ("positions-type", Cloud("points")),
         ("positions-type", Cloud(None)),
         ("positions-type", object()),
+        ("positions-type", fields(["x", "y", "w"])),
+        ("positions-type", "points.xyz"),
+        ("load", "nowhere.npy"),
     ],
 )
 def test_other_things_are_refused(code, given):
     with pytest.raises(HprError) as refused:
         PointCloud(given)
     assert refused.value.code == code, str(refused.value)
+
+
+def test_a_mask_removes_what_it_marks():
+    own = cloud()
+    with pytest.raises(HprError, match=r"mask of the shape \(2,\), but there are 40 points"):
+        own.remove([True, False])
+    own.remove(own.visible_from(EYE))
+    assert own.visible_from(EYE).count > 0 and not np.isin(own.visible_from(EYE), cloud().visible_from(EYE)).any()
+
+
+@pytest.mark.skipif(not hasattr(signal, "setitimer"), reason="this system has no timers")
+@pytest.mark.parametrize("ask", [
+    "PointCloud(points).visible_from_any(np.random.default_rng(1).normal(size=(3000, 3)) * 9)",
+    "PointCloud(points).visible_from_any(np.random.default_rng(1).normal(size=(3000, 3)) * 9, threads=2)",
+    "PointCloud(points).coverage([[0, 0, 9 + i] for i in range(3000)], looks=3)",
+    "PointCloud(points).seen_by([dict(camera, fx=5 + i) for i in range(3000)], looks=3, threads=2)",
+    "PointCloud(points[:3000]).illuminate(np.random.default_rng(1).normal(size=(300_000, 3)) * 9)",
+    "[PointCloud(points) for _ in range(100_000)]",
+])
+def test_ctrl_c_ends_a_question(ask):
+    """The question would take minutes. The signal comes in its middle."""
+    code = f"""
+        import signal
+        import numpy as np
+        from hidden_point_removal import PointCloud
+        points = np.random.default_rng(0).normal(size=(100_000, 3))
+        camera = dict(world_to_camera=np.eye(4), fy=5, cx=9, cy=9, width=18, height=18)
+        signal.signal(signal.SIGALRM, signal.default_int_handler)
+        signal.setitimer(signal.ITIMER_REAL, 1)
+        try:
+            {ask}
+        except KeyboardInterrupt:
+            print("ended")
+    """
+    done = subprocess.run([sys.executable, "-c", textwrap.dedent(code)], check=True, capture_output=True, text=True, timeout=100)
+    assert done.stdout == "ended\n", done.stderr

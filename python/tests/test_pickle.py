@@ -6,7 +6,7 @@ import pickle
 import numpy as np
 import pytest
 
-from hidden_point_removal import PointCloud
+from hidden_point_removal import Horizon, HprError, PointCloud
 
 VIEWPOINT = [0.0, 0.0, 4.0]
 
@@ -68,3 +68,23 @@ def test_answers_come_back(way):
     empty.append([[0.0, 0, 0]])
     empty.remove([0])
     assert len(way(empty)) == 1 and way(empty).visible_from(VIEWPOINT).count == 0
+
+
+@pytest.mark.parametrize("way", WAYS)
+@pytest.mark.parametrize("options", [{"radius": 40.0}, {"inversion": {"exponential": 0.01}}, {"inversion": {"power": 2}, "radius": 9.0}])
+def test_horizons_come_back(way, options):
+    given = points(np.float64)
+    horizon = Horizon(VIEWPOINT, **options)
+    horizon.add(given[:1000])
+    again = way(horizon)
+    assert np.array_equal(again.screen(given), horizon.screen(given)) and len(horizon.screen(given)) < len(given)
+    assert np.array_equal(np.sort(again.visible(), axis=0), np.sort(horizon.visible(), axis=0))
+    assert len(way(Horizon(VIEWPOINT, **options)).screen(given)) == len(given)
+
+
+def test_an_answer_leaves_its_cloud_behind():
+    cloud = PointCloud(points(np.float64))
+    seen = cloud.visible_from(VIEWPOINT)
+    assert len(pickle.dumps(seen)) < len(pickle.dumps(cloud)) / 3
+    with pytest.raises(HprError, match="copied without its cloud"):
+        pickle.loads(pickle.dumps(seen)).points

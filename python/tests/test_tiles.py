@@ -156,8 +156,8 @@ def test_what_is_done_is_not_done_again(tmp_path, monkeypatch):
     assert len(paths) < len(kept) < 2 * len(paths)
     # A file that was not written to its end is not trusted.
     kept[-1].write_bytes(kept[-1].read_bytes()[:100])
-    reads, chunks = [], tiles._chunks
-    monkeypatch.setattr(tiles, "_chunks", lambda path: reads.append(path) or chunks(path))
+    reads, chunks = [], tiles.chunks
+    monkeypatch.setattr(tiles, "chunks", lambda path: reads.append(path) or chunks(path))
     answers = visible_from_tiles(paths, EYES, out=out, radius=40_000.0)
     assert same(answers, whole) and 0 < len(reads) <= 2 * len(paths) - len(kept) + 1
     reads.clear()

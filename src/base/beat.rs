@@ -49,7 +49,7 @@ pub fn stop_by(flag: Option<Arc<AtomicBool>>) {
 
 /// What stops this thread.
 #[cfg(feature = "stop")]
-pub(crate) fn stop() -> Option<Arc<AtomicBool>> {
+pub fn stop() -> Option<Arc<AtomicBool>> {
     STOP.with_borrow(Clone::clone)
 }
 

@@ -6,7 +6,7 @@ import os
 import re
 from pathlib import Path
 
-from ..errors import refusal
+from ..arguments import refusal
 from .colmap import Bytes, Lines, read_images, read_lenses
 from .files import CameraOfImage, Problem, is_number, looks_binary
 from .others import read_json, read_kitti, read_opencv

@@ -1,10 +1,13 @@
-//! Answers, as `hidden_point_removal.answers` keeps them.
+//! Answers, as `hidden_point_removal.answers` keeps them, and refusals: `HprError`, a `ValueError` with a `code`.
 
 use hidden_point_removal as core;
-use hidden_point_removal::{CameraView, Exponential, Inversion};
+use hidden_point_removal::{CameraView, Error, Exponential, Inversion};
 use numpy::{IntoPyArray, PyArrayMethods};
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::IntoPyDict;
+
+use crate::cloud::PointCloud;
 
 const INVERTED: &std::ffi::CStr = c"next to no points are in this image, but many are in that of the inverse pose: is it camera_to_world or world_to_camera?";
 
@@ -14,15 +17,20 @@ pub fn python<'py>(py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
 }
 
 /// Which points are visible.
-pub fn answer<'py>(py: Python<'py>, seen: core::Visibility) -> PyResult<Bound<'py, PyAny>> {
-    made(py, seen, [py.None(), py.None()])
+pub fn answer<'py>(
+    cloud: &Bound<'py, PointCloud>,
+    seen: core::Visibility,
+) -> PyResult<Bound<'py, PyAny>> {
+    let none = cloud.py().None();
+    made(cloud, seen, [none.clone_ref(cloud.py()), none])
 }
 
 /// What a camera sees, and the direction of length 1 from each visible point to it.
 pub fn camera_answer<'py>(
-    py: Python<'py>,
+    cloud: &Bound<'py, PointCloud>,
     view: CameraView,
 ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>)> {
+    let py = cloud.py();
     warn_if_inverted(py, view.seems_inverted)?;
     let count = view.depths.len();
     let pixels = view.pixels.into_flattened().into_pyarray(py);
@@ -30,15 +38,16 @@ pub fn camera_answer<'py>(
     let depths = view.depths.into_pyarray(py).into_any().unbind();
     let towards = view.towards.into_flattened().into_pyarray(py);
     let towards = towards.reshape([count, 3])?.into_any();
-    Ok((made(py, view.visibility, [pixels, depths])?, towards))
+    Ok((made(cloud, view.visibility, [pixels, depths])?, towards))
 }
 
 /// `image`: where the visible points are in an image, and their depths.
 fn made<'py>(
-    py: Python<'py>,
+    cloud: &Bound<'py, PointCloud>,
     seen: core::Visibility,
     [pixels, depths]: [Py<PyAny>; 2],
 ) -> PyResult<Bound<'py, PyAny>> {
+    let py = cloud.py();
     let inversion = match seen.inversion() {
         Inversion::Looks(_) => [("looks", seen.looks())].into_py_dict(py)?.into_any(),
         other => shown_inversion(py, &other)?,
@@ -59,6 +68,7 @@ fn made<'py>(
         pixels,
         depths,
         length,
+        cloud,
     ))
 }
 
@@ -80,4 +90,39 @@ pub fn warn_if_inverted(py: Python<'_>, seems_inverted: bool) -> PyResult<()> {
         PyErr::warn(py, &category, INVERTED, 1)?;
     }
     Ok(())
+}
+
+pyo3::create_exception!(
+    hidden_point_removal,
+    HprError,
+    PyValueError,
+    "Bad input. `code` names the kind of problem: positions-length, positions-type, non-finite,\n\
+     viewpoint, radius, option, too-large or load."
+);
+
+/// An `HprError` with this code.
+pub fn problem(py: Python<'_>, code: &str, message: String) -> PyErr {
+    let error = HprError::new_err(message);
+    match error.value(py).setattr("code", code) {
+        Ok(()) => error,
+        Err(failed) => failed,
+    }
+}
+
+/// The refusal of an option.
+pub fn option(py: Python<'_>, message: String) -> PyErr {
+    problem(py, "option", message)
+}
+
+/// A refusal by the core.
+pub fn refused(py: Python<'_>, error: Error) -> PyErr {
+    problem(py, error.code(), error.to_string())
+}
+
+/// A short text of a value, for messages.
+pub fn shown(value: &Bound<'_, PyAny>) -> String {
+    let text = value
+        .repr()
+        .map_or_else(|_| "?".into(), |text| text.to_string());
+    text.chars().take(60).collect()
 }

@@ -1,0 +1,158 @@
+"""The types of arguments."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Mapping
+from typing import Any, Literal, Protocol, TypedDict, Union
+
+from numpy.typing import ArrayLike
+
+if sys.version_info >= (3, 11):
+    from typing import Unpack
+else:
+    from typing_extensions import Unpack
+
+Rule = Literal["auto", "opposite"]
+
+
+class Power(TypedDict):
+    power: float
+
+
+class Exponential(TypedDict):
+    exponential: float | Literal["auto"]
+
+
+Inversion = Union[Literal["spherical"], Power, Exponential]
+
+
+class Within(TypedDict, total=False):
+    """A point takes part if all entries choose it. An entry that is None counts as left out."""
+
+    distance: float | None
+    """The points at most this far from the viewpoint."""
+    box: tuple[ArrayLike, ArrayLike] | ArrayLike | None
+    """The points between these two corners, the lowest and the highest coordinates, borders included."""
+    mask: ArrayLike | None
+    """One truth value for each index."""
+
+
+class MergeOptions(TypedDict, total=False):
+    """The options of clouds in parts: one of the two, as numbers."""
+
+    radius: float | None
+    """R of the flipping sphere for the whole cloud, in its units."""
+    inversion: Inversion | None
+    """{"power": number} or {"exponential": number}."""
+
+
+class Options(TypedDict, total=False):
+    """The options of a view. An option that is None counts as left out."""
+
+    radius: float | Rule | None
+    """R of the flipping sphere in the cloud's units, or the rule that chooses it. Default "auto"."""
+    exponent: float | None
+    """R = farthest distance * 10**exponent, the paper's parameter. Excludes `radius`."""
+    inversion: Inversion | None
+    """ "spherical", {"power": number} or {"exponential": number or "auto"}."""
+    looks: Literal[2, 3] | None
+    """Two or three hulls, each trusted where it is sure. Excludes radius, exponent and inversion."""
+    scores: bool | None
+    """With `looks` only: the answer then has a score for each index."""
+    thickness: float | Literal["auto"] | None
+    """With `looks` only: how far behind the surface before it a point may be seen. Default "auto", by the noise."""
+    within: Within | None
+    """Only these points take part, as if the cloud held no others."""
+    threads: int | None
+    """How many threads compute, from 1 to 256; they change no answer. Default: all cores from 200,000 points on, else 1."""
+
+
+class Cone(TypedDict):
+    """A cone of directions."""
+
+    direction: ArrayLike
+    angle: float
+    """Its full opening in degrees, above 0 and at most 360."""
+
+
+class Camera(TypedDict, total=False):
+    """A camera: u = fx * x / z + cx, with x to the right, y down and z forward. u = 0 is the left edge of the first pixel.
+
+    Exactly one pose, the size, and either fx, fy, cx and cy or K are needed.
+    """
+
+    camera_to_world: ArrayLike | None
+    """From the camera's space to the cloud's, rigid: an array of shape (4, 4) or (3, 4), or 16 numbers column by column."""
+    world_to_camera: ArrayLike | None
+    """The inverse, as COLMAP and OpenCV keep it."""
+    convention: Literal["opencv", "opengl"]
+    """The axes of the camera's space. Default "opencv"."""
+    fx: float
+    fy: float
+    cx: float
+    cy: float
+    K: ArrayLike | None
+    """[[fx, 0, cx], [0, fy, cy], [0, 0, 1]]."""
+    width: float
+    """In pixels."""
+    height: float
+    model: str | None
+    """COLMAP's name of the model of the lens. Default "OPENCV"."""
+    distortion: ArrayLike | None
+    """The coefficients as COLMAP lists them for the model; k1, k2, p1, p2 for "OPENCV", and k3 where there is one."""
+    near: float
+    """The least depth along the optical axis, in the cloud's units. Default 0."""
+    far: float
+
+
+class Station(TypedDict, total=False):
+    """Where a scanner stood, and the points that it measured, by exactly one of `indices` and `mask`."""
+
+    viewpoint: ArrayLike
+    indices: ArrayLike | None
+    mask: ArrayLike | None
+
+
+class HasPoints(Protocol):
+    """A cloud of Open3D or PyVista."""
+
+    @property
+    def points(self) -> Any: ...
+
+
+class HasPoint(Protocol):
+    """A cloud of open3d.t."""
+
+    @property
+    def point(self) -> Any: ...
+
+
+class HasVertices(Protocol):
+    """A mesh or a cloud of trimesh."""
+
+    @property
+    def vertices(self) -> Any: ...
+
+
+class HasXyz(Protocol):
+    """A file that laspy has read."""
+
+    @property
+    def xyz(self) -> Any: ...
+
+
+class HasPose(Protocol):
+    """An image of pycolmap."""
+
+    @property
+    def cam_from_world(self) -> Any: ...
+
+
+Positions = Union[ArrayLike, HasPoints, HasPoint, HasVertices, HasXyz, Mapping[str, ArrayLike], "os.PathLike[str]", str]
+"""An array of shape (n, 3), or what holds one."""
+CameraLike = Union[Camera, "tuple[Camera, str]", HasPose]
+"""A camera, what `read_cameras` gives of one, or an image of pycolmap."""
+Seat = Union[ArrayLike, CameraLike]
+"""A viewpoint, or a camera, which sees only what is in its image."""
