@@ -17,10 +17,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ._native import Horizon, HprError, PointCloud, VisibilityMap, merge_visible
-from .answers import Calibration, Panorama, Placement, SeenBy, Visibility, colmap_vis, orient_normals
-from .cameras import CameraOfImage, read_cameras
+from ._answers import Calibration, Panorama, Placement, SeenBy, Visibility, colmap_vis, orient_normals
+from ._cameras import CameraOfImage, read_cameras
 from .transfer import name_options, transfer
-from .types import Camera, MergeOptions, Options, Positions, Station, Unpack, Within
+from .types import Camera, MergeOptions, Options, OtherOptions, Positions, Station, Unpack, Within
 
 __all__ = [
     "Camera",
@@ -49,7 +49,7 @@ __version__ = "0.1.0"
 
 
 def hidden_point_removal(
-    points: Positions, camera_location: ArrayLike, radius: float | None = None, **options: Unpack[Options]
+    points: Positions, camera_location: ArrayLike, radius: float | None = None, **options: Unpack[OtherOptions]
 ) -> NDArray[np.uint32]:
     """The indices of the visible points, ascending: uint32.
 
@@ -61,9 +61,7 @@ def hidden_point_removal(
 
     The first arguments are those of Open3D's method of the same name.
     """
-    if radius is not None:
-        options["radius"] = radius
-    return PointCloud(points).visible_from(camera_location, **options).indices
+    return PointCloud(points).visible_from(camera_location, radius=radius, **options).indices
 
 
 name_options(hidden_point_removal)

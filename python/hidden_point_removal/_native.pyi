@@ -4,7 +4,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .answers import Calibration, Panorama, Placement, SeenBy, Visibility
+from ._answers import Calibration, Panorama, Placement, SeenBy, Visibility
 from .types import CameraLike, Cone, MergeOptions, Options, Positions, Rule, Seat, Station, Unpack
 
 class HprError(ValueError):
@@ -49,6 +49,9 @@ class PointCloud:
     @property
     def noise(self) -> float:
         """How far measured points lie off their surface: one standard deviation; 0 where nothing tells of noise."""
+    @property
+    def surface(self) -> Literal["clean", "noisy", "layered"]:
+        """What the survey found: an even sample of a surface, a sensor's noise everywhere, or layers as of registered scans."""
     def visible_from(self, viewpoint: ArrayLike, **options: Unpack[Options]) -> Visibility:
         """The points that can be seen from a viewpoint (paper, section 3, algorithm 1)."""
     def visible_from_direction(self, direction: ArrayLike, **options: Unpack[Options]) -> Visibility:
@@ -165,4 +168,4 @@ def merge_visible(
     The answer is exact: visible(A + B) = visible(visible(A) + visible(B)).
     """
 
-def _lenses(cameras: Iterable[CameraLike]) -> list[list[float]]: ...
+def _lenses(given: Iterable[CameraLike]) -> list[list[float]]: ...

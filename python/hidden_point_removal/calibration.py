@@ -6,9 +6,9 @@ import math
 
 import numpy as np
 
-from . import arguments
-from .answers import Calibration
-from .arguments import refusal
+from . import _arguments as arguments
+from ._answers import Calibration
+from ._arguments import refusal
 
 #: So many of the points of each station must be seen.
 ENOUGH = 0.985

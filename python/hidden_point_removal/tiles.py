@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ._native import Horizon, PointCloud, merge_visible
-from .arguments import refusal
+from ._arguments import refusal
 from .types import MergeOptions, Unpack
 
 KINDS = (".laz", ".las", ".parquet", ".npy")

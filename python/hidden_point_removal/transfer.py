@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from ._native import PointCloud, _lenses
-from .answers import by_point, joined
-from .arguments import array as read_array
-from .arguments import listed, refusal
+from ._answers import by_point, joined
+from ._arguments import array as read_array
+from ._arguments import listed, refusal
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -72,7 +72,7 @@ def transfer(
     views = cloud._camera_views(cameras, on_progress, **options)
     with np.errstate(all="ignore"):
         try:
-            values, seen = _merged(len(cloud), views, lenses, pictures, (merge, weigh, SAMPLINGS[sampling]))
+            values, seen = _merged(len(cloud), views, lenses, pictures, (merge, weigh, SAMPLINGS[sampling or "nearest"]))
         except MemoryError:
             message = f"there is no memory for {len(cloud)} values of {np.prod(pixel, dtype=int)} channels"
             raise refusal("too-large", message) from None
@@ -244,7 +244,7 @@ def _picture(given, name):
     return array.astype(np.float32 if is_single else np.float64)
 
 
-def _word(name, given, words):
+def _word(name: str, given: Any, words: Any) -> Any:
     if given is not None and (not isinstance(given, str) or given not in words):
         raise refusal("option", f"{name} must be one of {', '.join(words)}, got {given!r:.60}")
     return given

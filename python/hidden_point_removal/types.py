@@ -10,9 +10,9 @@ from typing import Any, Literal, Protocol, TypedDict, Union
 from numpy.typing import ArrayLike
 
 if sys.version_info >= (3, 11):
-    from typing import Unpack
+    from typing import Unpack as Unpack
 else:
-    from typing_extensions import Unpack
+    from typing_extensions import Unpack as Unpack
 
 Rule = Literal["auto", "opposite"]
 
@@ -48,11 +48,9 @@ class MergeOptions(TypedDict, total=False):
     """{"power": number} or {"exponential": number}."""
 
 
-class Options(TypedDict, total=False):
-    """The options of a view. An option that is None counts as left out."""
+class OtherOptions(TypedDict, total=False):
+    """The options of a view besides the radius."""
 
-    radius: float | Rule | None
-    """R of the flipping sphere in the cloud's units, or the rule that chooses it. Default "auto"."""
     exponent: float | None
     """R = farthest distance * 10**exponent, the paper's parameter. Excludes `radius`."""
     inversion: Inversion | None
@@ -63,10 +61,19 @@ class Options(TypedDict, total=False):
     """With `looks` only: the answer then has a score for each index."""
     thickness: float | Literal["auto"] | None
     """With `looks` only: how far behind the surface before it a point may be seen. Default "auto", by the noise."""
+    surface: Literal["auto", "clean", "noisy", "layered"] | None
+    """With `looks` only: what the cloud is. Default "auto": `PointCloud.surface`."""
     within: Within | None
     """Only these points take part, as if the cloud held no others."""
     threads: int | None
     """How many threads compute, from 1 to 256; they change no answer. Default: all cores from 200,000 points on, else 1."""
+
+
+class Options(OtherOptions, total=False):
+    """The options of a view. An option that is None counts as left out."""
+
+    radius: float | Rule | None
+    """R of the flipping sphere in the cloud's units, or the rule that chooses it. Default "auto"."""
 
 
 class Cone(TypedDict):

@@ -1,4 +1,4 @@
-//! Answers, as `hidden_point_removal.answers` keeps them, and refusals: `HprError`, a `ValueError` with a `code`.
+//! Answers, as `hidden_point_removal._answers` keeps them, and refusals: `HprError`, a `ValueError` with a `code`.
 
 use hidden_point_removal as core;
 use hidden_point_removal::{CameraView, Error, Exponential, Inversion};
@@ -11,9 +11,9 @@ use crate::cloud::PointCloud;
 
 const INVERTED: &std::ffi::CStr = c"next to no points are in this image, but many are in that of the inverse pose: is it camera_to_world or world_to_camera?";
 
-/// A class or a function of `hidden_point_removal.answers`.
+/// A class or a function of `hidden_point_removal._answers`.
 pub fn python<'py>(py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
-    py.import("hidden_point_removal.answers")?.getattr(name)
+    py.import("hidden_point_removal._answers")?.getattr(name)
 }
 
 /// Which points are visible.

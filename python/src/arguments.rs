@@ -1,4 +1,4 @@
-//! Arguments as the core takes them. `hidden_point_removal.arguments` makes arrays and numbers of whatever is given.
+//! Arguments as the core takes them. `hidden_point_removal._arguments` makes arrays and numbers of whatever is given.
 
 use hidden_point_removal::{Camera, CameraModel, Convention, Pose, Seat};
 use numpy::{Element, PyReadonlyArray1, PyReadonlyArray2};
@@ -51,13 +51,13 @@ impl<'py> Positions<'py> {
     }
 }
 
-/// Calls a reader of `hidden_point_removal.arguments`.
+/// Calls a reader of `hidden_point_removal._arguments`.
 fn read<'py>(
     given: &Bound<'py, PyAny>,
     reader: &str,
     arguments: impl PyCallArgs<'py>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let module = given.py().import("hidden_point_removal.arguments")?;
+    let module = given.py().import("hidden_point_removal._arguments")?;
     module.getattr(reader)?.call1(arguments)
 }
 

@@ -10,7 +10,7 @@ use pyo3::types::{PyDict, PyType};
 
 use crate::answers::{answer, camera_answer, option, warn_if_inverted};
 use crate::arguments::{Points, Positions, indices as read_indices};
-use crate::options::{self, Asked, How};
+use crate::options::{self, Asked, How, SURFACES};
 use crate::shared::{Shared, worked};
 
 /// A point cloud, prepared for visibility queries.
@@ -233,6 +233,15 @@ impl PointCloud {
     #[getter]
     fn noise(&self, py: Python<'_>) -> PyResult<f64> {
         self.ask_core(py, core::PointCloud::noise)
+    }
+
+    /// What the survey found: "clean", an even sample of a surface; "noisy", a sensor's noise everywhere; or "layered",
+    /// registered scans, or plants. With looks, the option `surface` overrides it.
+    #[getter]
+    fn surface(&self, py: Python<'_>) -> PyResult<&'static str> {
+        let found = self.ask_core(py, core::PointCloud::surface)?;
+        let word = SURFACES.iter().find(|(_, surface)| *surface == found);
+        Ok(word.map_or("clean", |(word, _)| word))
     }
 
     /// Adds points, all or none. They take the next indices.

@@ -1,19 +1,20 @@
 //! Keyword arguments as options of a view.
 
-use hidden_point_removal::{Exponential, Inversion, Options, Radius, Within};
+use hidden_point_removal::{Exponential, Inversion, Options, Radius, Surface, Within};
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict};
 
 use crate::answers::{option, shown};
 use crate::arguments::{corners, mask};
 
-const NAMES: [&str; 8] = [
+const NAMES: [&str; 9] = [
     "radius",
     "exponent",
     "inversion",
     "looks",
     "scores",
     "thickness",
+    "surface",
     "within",
     "threads",
 ];
@@ -24,7 +25,7 @@ macro_rules! asks {
     ($head:literal) => {
         concat!(
             $head,
-            ", radius=None, exponent=None, inversion=None, looks=None, scores=False, thickness=None, within=None, ",
+            ", radius=None, exponent=None, inversion=None, looks=None, scores=False, thickness=None, surface=None, within=None, ",
             "threads=None)\n--\n"
         )
     };
@@ -99,6 +100,7 @@ pub fn read(py: Python<'_>, given: Option<&Bound<'_, PyDict>>) -> PyResult<Asked
                 };
             }
             "thickness" => options.thickness = thickness(py, &value)?,
+            "surface" => options.surface = surface(py, &value)?,
             "within" => how.mask = within(py, &value, options)?,
             "threads" => how.threads = Some(count(py, &name, &value)?),
             _ => options.scores = truth(py, &name, &value)?,
@@ -138,6 +140,28 @@ fn thickness(py: Python<'_>, value: &Bound<'_, PyAny>) -> PyResult<Option<f64>> 
         )
     };
     number(value).map(Some).ok_or_else(|| option(py, wrong()))
+}
+
+/// What the survey of a cloud finds.
+pub const SURFACES: [(&str, Surface); 3] = [
+    ("clean", Surface::Clean),
+    ("noisy", Surface::Noisy),
+    ("layered", Surface::Layered),
+];
+
+/// Reads the kind of a surface, or "auto".
+fn surface(py: Python<'_>, value: &Bound<'_, PyAny>) -> PyResult<Option<Surface>> {
+    let word: Option<String> = value.extract().ok();
+    let known = SURFACES.iter().find(|(name, _)| word.as_deref() == Some(name));
+    match known {
+        Some(&(_, surface)) => Ok(Some(surface)),
+        None if word.as_deref() == Some("auto") => Ok(None),
+        None => {
+            let given = shown(value);
+            let message = format!("surface must be auto, clean, noisy or layered, got {given}");
+            Err(option(py, message))
+        }
+    }
 }
 
 /// Reads a distance and a box into the options. Returns the mask.

@@ -28,6 +28,7 @@ impl PointCloud {
     /// scores: bool. With looks: the answer has a score from 0 to 1 for each index.
     /// thickness: float or "auto" (default). With looks: how far behind the surface before it a point may lie and still be
     ///     seen, in the cloud's units.
+    /// surface: "auto" (default), "clean", "noisy" or "layered". With looks: what the cloud is, in place of `cloud.surface`.
     /// within: dict of distance (float), box (two corners) and mask (n truth values). Only these points take part.
     /// threads: int, from 1 to 256. So many threads compute; they change no answer. Default: all cores from 200,000 points
     ///     on, else 1.

@@ -5,6 +5,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
 ROOT = Path(__file__).parents[2]
 
 
@@ -12,8 +14,9 @@ def examples(document):
     return re.findall(r"^```python\n(.*?)^```", (ROOT / document).read_text(), re.DOTALL | re.MULTILINE)
 
 
-def test_the_readme_runs(tmp_path):
-    code = "\n".join(examples("python/README.md"))
+@pytest.mark.parametrize("document", ["python/README.md", "docs/PYTHON.md"])
+def test_the_examples_run(document, tmp_path):
+    code = "\n".join(examples(document))
     assert code.count("assert") >= 2
     subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, cwd=tmp_path)
 
@@ -22,3 +25,12 @@ def test_the_example_prints_the_lines_in_its_comments():
     example = ROOT / "examples" / "visible.py"
     printed = subprocess.run([sys.executable, example], check=True, capture_output=True, text=True).stdout
     assert printed.splitlines() == re.findall(r"# → (.*)", example.read_text())
+
+
+@pytest.mark.parametrize("document", ["python/README.md", "docs/PYTHON.md", "docs/SCALE.md"])
+def test_the_types_of_the_examples_are_right(document, tmp_path):
+    pytest.importorskip("mypy", reason="mypy is not installed")
+    (tmp_path / "example.py").write_text("\n".join(examples(document)))
+    words = ["mypy", "--strict", "--ignore-missing-imports", "example.py"]
+    done = subprocess.run([sys.executable, "-m", *words], capture_output=True, text=True, cwd=tmp_path)
+    assert done.returncode == 0, done.stdout

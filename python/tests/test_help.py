@@ -1,16 +1,19 @@
 """help() explains the package."""
 
+import ast
 import inspect
 import pydoc
+from importlib import metadata
+from pathlib import Path
 
 import pytest
 
 import hidden_point_removal as hpr
-from hidden_point_removal import Horizon, HprError, PointCloud
+from hidden_point_removal import Horizon, HprError, PointCloud, _native
 
-OPTIONS = "radius exponent inversion looks scores thickness within".split()
+OPTIONS = "radius exponent inversion looks scores thickness surface within".split()
 ASKS = [name for name in dir(PointCloud) if not name.startswith("_")]
-TAKE_NO_OPTIONS = {"append", "auto_radius", "noise", "remove", "skipped", "spacing"}
+TAKE_NO_OPTIONS = {"append", "auto_radius", "noise", "remove", "skipped", "spacing", "surface"}
 
 
 def public():
@@ -54,3 +57,27 @@ def test_help_lists_signature_types_and_text():
     assert "visible_from(self, /, viewpoint, *, radius=None," in shown
     for words in ('radius: float, "auto" (default)', "Returns a `Visibility`", "Katz, Tal and Basri"):
         assert words in shown
+
+
+def test_the_stub_names_what_there_is():
+    stub = ast.parse((Path(_native.__file__).parent / "_native.pyi").read_text())
+    own = {node.name: node for node in stub.body if isinstance(node, (ast.ClassDef, ast.FunctionDef))}
+    assert own.keys() == {name for name in dir(_native) if not name.startswith("__")}
+    for name, node in own.items():
+        whole = getattr(_native, name)
+        if isinstance(node, ast.ClassDef) and name != "HprError":
+            members = {member.name: member for member in node.body if isinstance(member, ast.FunctionDef)}
+            shown = {member for member in vars(whole) if not member.startswith("__")}
+            assert {member for member in members if not member.startswith("__")} == shown
+        else:
+            members = {name: node} if isinstance(node, ast.FunctionDef) else {}
+        for member, function in members.items():
+            if any(isinstance(word, ast.Name) and word.id == "property" for word in function.decorator_list) or member.startswith("__"):
+                continue
+            given = [one.arg for one in (*function.args.args, *function.args.kwonlyargs)]
+            there = list(inspect.signature(getattr(whole, member) if whole is not None and member != name else whole).parameters)
+            assert [one for one in there if one not in (*OPTIONS, "threads", "options")] == [one for one in given if one not in OPTIONS], member
+
+
+def test_the_version_is_that_of_the_package():
+    assert hpr.__version__ == metadata.version("hidden-point-removal")

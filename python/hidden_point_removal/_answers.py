@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
 
-from .arguments import array, refusal
+from ._arguments import array, refusal
 
 if TYPE_CHECKING:
     from scipy.sparse import csr_array
@@ -67,7 +67,7 @@ class Visibility:
         """One truth value for each index: True where the point is hidden."""
         return ~self.mask()
 
-    def __array__(self, dtype: DTypeLike = None, copy: bool | None = None) -> NDArray[Any]:
+    def __array__(self, dtype: DTypeLike | None = None, copy: bool | None = None) -> NDArray[Any]:
         """The indices: int64, unless another type is asked for."""
         return self.indices.astype(np.int64 if dtype is None else dtype)
 
