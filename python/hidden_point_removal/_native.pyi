@@ -26,6 +26,7 @@ class VisibilityMap:
     @property
     def uniforms(self) -> dict[str, tuple[float, ...]]:
         """The numbers of the shader: `hprViewpoint` and `hprMargins`."""
+    def __reduce__(self) -> tuple[Any, ...]: ...
     def hides(self, positions: Positions) -> NDArray[np.bool_]:
         """Which places are certainly hidden."""
 
@@ -168,4 +169,7 @@ def merge_visible(
     The answer is exact: visible(A + B) = visible(visible(A) + visible(B)).
     """
 
+def _map(
+    viewpoint: Sequence[float], origin: Sequence[float], numbers: Sequence[float], data: NDArray[np.float32]
+) -> VisibilityMap: ...
 def _lenses(given: Iterable[CameraLike]) -> list[list[float]]: ...

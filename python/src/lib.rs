@@ -6,7 +6,6 @@ mod options;
 mod answers;
 mod arguments;
 mod cloud;
-mod horizon;
 mod map;
 mod parts;
 mod shared;
@@ -19,9 +18,10 @@ use pyo3::prelude::*;
 fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("HprError", module.py().get_type::<answers::HprError>())?;
     module.add_class::<cloud::PointCloud>()?;
-    module.add_class::<horizon::Horizon>()?;
+    module.add_class::<parts::Horizon>()?;
     module.add_class::<map::VisibilityMap>()?;
     module.add_function(wrap_pyfunction!(parts::merge_visible, module)?)?;
+    module.add_function(wrap_pyfunction!(map::of_parts, module)?)?;
     module.add_function(wrap_pyfunction!(surveys::lenses, module)?)?;
     Ok(())
 }

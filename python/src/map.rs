@@ -2,7 +2,7 @@
 
 use hidden_point_removal as core;
 use hidden_point_removal::MapOptions;
-use numpy::{IntoPyArray, PyArray1, ToPyArray};
+use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1, ToPyArray};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
@@ -24,8 +24,34 @@ impl VisibilityMap {
     }
 }
 
+/// The viewpoint, the origin, the numbers and the texture of a map.
+type Parts<'py> = ([f64; 3], [f64; 3], [f32; 4], Bound<'py, PyArray1<f32>>);
+
+/// A map of these parts.
+#[pyfunction]
+#[pyo3(name = "_map")]
+pub fn of_parts(
+    viewpoint: [f64; 3],
+    origin: [f64; 3],
+    numbers: [f32; 4],
+    data: PyReadonlyArray1<'_, f32>,
+) -> VisibilityMap {
+    let data = data.as_array().to_vec();
+    VisibilityMap::new(core::VisibilityMap::from_parts(
+        viewpoint, origin, numbers, data,
+    ))
+}
+
 #[pymethods]
 impl VisibilityMap {
+    /// For pickle and copy: what makes the same map again.
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Parts<'py>)> {
+        let make = py.import("hidden_point_removal._native")?.getattr("_map")?;
+        let map = &self.map;
+        let data = map.data().to_pyarray(py);
+        Ok((make, (map.viewpoint(), map.origin(), map.numbers(), data)))
+    }
+
     /// The viewpoint, in the cloud's coordinates: 3 float.
     #[getter]
     fn viewpoint(&self) -> (f64, f64, f64) {

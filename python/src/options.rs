@@ -152,7 +152,9 @@ pub const SURFACES: [(&str, Surface); 3] = [
 /// Reads the kind of a surface, or "auto".
 fn surface(py: Python<'_>, value: &Bound<'_, PyAny>) -> PyResult<Option<Surface>> {
     let word: Option<String> = value.extract().ok();
-    let known = SURFACES.iter().find(|(name, _)| word.as_deref() == Some(name));
+    let known = SURFACES
+        .iter()
+        .find(|(name, _)| word.as_deref() == Some(name));
     match known {
         Some(&(_, surface)) => Ok(Some(surface)),
         None if word.as_deref() == Some("auto") => Ok(None),

@@ -205,7 +205,7 @@ impl PointCloud {
         options: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let given = options.map_or_else(|| PyDict::new(slf.py()), Clone::clone);
-        let module = slf.py().import("hidden_point_removal.calibration")?;
+        let module = slf.py().import("hidden_point_removal._calibration")?;
         module.call_method1("calibrated", (slf, stations, given))
     }
 

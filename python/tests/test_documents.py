@@ -34,3 +34,14 @@ def test_the_types_of_the_examples_are_right(document, tmp_path):
     words = ["mypy", "--strict", "--ignore-missing-imports", "example.py"]
     done = subprocess.run([sys.executable, "-m", *words], capture_output=True, text=True, cwd=tmp_path)
     assert done.returncode == 0, done.stdout
+
+
+def test_the_notebook_runs():
+    """Its cells assert what they say."""
+    nbformat = pytest.importorskip("nbformat", reason="Jupyter is not installed")
+    nbclient = pytest.importorskip("nbclient", reason="Jupyter is not installed")
+    pytest.importorskip("ipykernel", reason="Jupyter is not installed")
+    notebook = nbformat.read(ROOT / "python" / "examples" / "colors.ipynb", as_version=4)
+    assert all(not cell.get("outputs") for cell in notebook.cells)
+    done = nbclient.NotebookClient(notebook, timeout=120).execute()
+    assert "of the points are visible" in done.cells[3].outputs[0]["data"]["text/plain"]

@@ -88,3 +88,12 @@ def test_an_answer_leaves_its_cloud_behind():
     assert len(pickle.dumps(seen)) < len(pickle.dumps(cloud)) / 3
     with pytest.raises(HprError, match="copied without its cloud"):
         pickle.loads(pickle.dumps(seen)).points
+
+
+@pytest.mark.parametrize("way", WAYS)
+def test_maps_come_back(way):
+    given = points(np.float64)
+    map = PointCloud(given).visibility_map(VIEWPOINT, origin=[1, 2, 3])
+    again = way(map)
+    assert (again.viewpoint, again.origin, again.uniforms) == (map.viewpoint, map.origin, map.uniforms)
+    assert np.array_equal(again.data, map.data) and np.array_equal(again.hides(given), map.hides(given)) and map.hides(given).any()

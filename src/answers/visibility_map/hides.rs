@@ -57,6 +57,22 @@ impl VisibilityMap {
         map
     }
 
+    /// A map that holds what another one does: its [`viewpoint`](Self::viewpoint), [`origin`](Self::origin),
+    /// [`numbers`](Self::numbers) and [`data`](Self::data). So a map can be stored.
+    #[must_use]
+    pub fn from_parts(
+        viewpoint: [f64; 3],
+        origin: [f64; 3],
+        numbers: [f32; 4],
+        data: Vec<f32>,
+    ) -> Self {
+        Self {
+            numbers,
+            data,
+            ..Self::empty(viewpoint, origin, 0.0)
+        }
+    }
+
     /// The largest coordinate of the viewpoint relative to the origin.
     pub(super) fn distance_of_origin(&self) -> f64 {
         self.local
