@@ -53,7 +53,6 @@ pub use answers::observer::Observer;
 pub use answers::panorama::{Panorama, PanoramaOptions};
 pub use answers::placement::{Choice, Placement, Placing};
 pub use answers::reconstruct::Reconstruction;
-pub use answers::share::{Share, share_visible};
 #[cfg(feature = "std")]
 pub use answers::threads::Threads;
 pub use answers::union::ring_of_viewpoints;
@@ -70,7 +69,6 @@ pub use cloud::points::Position;
 pub use cloud::selection::Within;
 #[cfg(feature = "higher")]
 pub use dimensions::{MAX_DIMENSION, PointCloudNd};
-pub use hull::division::Sector;
 pub use view::camera::{Camera, Convention, Pose};
 pub use view::distortion::CameraModel;
 pub use view::guarantees::{permissible_curvature, radius_bound};

@@ -23,7 +23,7 @@ impl PointCloud {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Excludes`] for drafts and scores; [`Error::Camera`]; otherwise as [`PointCloud::visible_from`].
+    /// [`Error::Excludes`] for scores; [`Error::Camera`]; otherwise as [`PointCloud::visible_from`].
     pub fn coverage<S: Copy + Into<Seat> + Sync>(
         &self,
         viewpoints: &[S],

@@ -1,124 +1,28 @@
-//! Noise handling. Before a view, points move to the plane of their neighbors. After the view,
-//! neighbors vote.
+//! Removes noise that is the same everywhere: points move to the plane of their neighbors. Looks are at the moved points.
 
 use alloc::vec::Vec;
 use glam::DVec3;
 
-use crate::base::allocation::with_capacity;
-use crate::base::error::{Error, in_range};
+use crate::base::allocation::{OutOfMemory, with_capacity};
 use crate::cloud::neighbors::{Nearest, Neighbors};
 use crate::cloud::plane::{least_axis, outer_product};
-use crate::cloud::point_cloud::{PointCloud, Voters};
+use crate::cloud::point_cloud::PointCloud;
 use crate::cloud::points::Points;
-use crate::view::options::Options;
-
-/// A point is voted visible when more than this many fifths of itself and its neighbors are
-/// visible. The share is 0.4 rather than a half, because the operator has more false negatives
-/// than false positives.
-const FIFTHS: usize = 2;
-
-/// Neighbors are kept for later views only where a point has at most this many.
-const MOST_KEPT: usize = 64;
 
 impl PointCloud {
-    /// The denoised cloud, for many views. [`Options::denoise`] asks the same cloud. Every point is
-    /// projected on the least-squares plane of itself and its `k` nearest other points. Indices
-    /// stay. Equal points count once. Where there are fewer than `k` distinct other points, all of
-    /// them count.
-    ///
-    /// Takes O(n (log n + k²)) time, some microseconds a point.
-    ///
-    /// # Errors
-    /// [`Error::OutOfRange`] unless 1 ≤ `k` < the number of present points;
-    /// [`Error::OutOfMemory`].
-    pub fn denoised(&self, k: usize) -> Result<Self, Error> {
-        let mut moved: Vec<[f64; 3]> = with_capacity(self.sequence.points.len())?;
-        self.for_each_neighborhood("denoise", k, &mut |point, nearest| {
-            let points = &self.sequence.points;
-            moved.push(on_plane(points.get(point), nearest, points));
-        })?;
-        Ok(self.moved(&moved)?)
-    }
-
-    /// Keeps the neighbors that vote, if the options ask for a vote.
-    pub(crate) fn keep_voters(&mut self, options: &Options) -> Result<(), Error> {
-        let Some(k) = options.vote.filter(|&k| k <= MOST_KEPT) else {
-            return Ok(());
-        };
-        if self.kept.voters.as_ref().is_none_or(|voters| voters.k != k) {
-            self.kept.voters = None;
-            self.kept.voters = Some(self.voters(k)?);
-        }
-        Ok(())
-    }
-
-    /// Every distinct point and its `k` nearest other points vote on whether it is visible.
-    pub(crate) fn vote(&self, k: usize, visible: &[bool]) -> Result<Vec<bool>, Error> {
-        if let Some(voters) = self.kept.voters.as_ref().filter(|voters| voters.k == k) {
-            return voters.vote(visible);
-        }
-        let mut voted: Vec<bool> = with_capacity(visible.len())?;
-        self.for_each_neighborhood("vote", k, &mut |point, nearest| {
-            let others = nearest.found().iter().map(|other| other.index);
-            voted.push(is_voted(point, others, visible));
-        })?;
-        Ok(voted)
-    }
-
-    /// The `k` nearest other points of every distinct point.
-    pub(crate) fn voters(&self, k: usize) -> Result<Voters, Error> {
-        let points = self.sequence.points.len();
-        let each = k.min(points.saturating_sub(1));
-        let mut others: Vec<u32> = with_capacity(points.saturating_mul(each))?;
-        self.for_each_neighborhood("vote", k, &mut |_, nearest| {
-            others.extend(nearest.found().iter().map(|other| other.index));
-        })?;
-        Ok(Voters { k, each, others })
-    }
-
-    /// Refuses a number of neighbors that is larger than the number of other points.
-    pub(crate) fn check_neighbors(&self, option: &'static str, k: usize) -> Result<(), Error> {
-        let most = self.sequence.present().saturating_sub(1);
-        in_range(option, k as f64, 1.0, most as f64)?;
-        Ok(())
-    }
-
-    /// Visits the distinct points in their order, each with its `k` nearest other points.
-    fn for_each_neighborhood(
-        &self,
-        option: &'static str,
-        k: usize,
-        visit: &mut dyn FnMut(usize, &Nearest),
-    ) -> Result<(), Error> {
-        self.check_neighbors(option, k)?;
+    /// The cloud in which every point is projected on the least-squares plane of itself and its `k` nearest other
+    /// points. Indices stay. Equal points count once.
+    pub(crate) fn denoised(&self, k: usize) -> Result<Self, OutOfMemory> {
         let points = &self.sequence.points;
         let neighbors = Neighbors::new(points)?;
         let mut nearest = Nearest::with_capacity(k)?;
+        let mut moved: Vec<[f64; 3]> = with_capacity(points.len())?;
         for point in 0..points.len() {
             neighbors.find(point, &mut nearest);
-            visit(point, &nearest);
+            moved.push(on_plane(points.get(point), &nearest, points));
         }
-        Ok(())
+        self.moved(&moved)
     }
-}
-
-impl Voters {
-    /// Every distinct point and its neighbors vote on whether it is visible.
-    pub(crate) fn vote(&self, visible: &[bool]) -> Result<Vec<bool>, Error> {
-        let mut voted: Vec<bool> = with_capacity(visible.len())?;
-        voted.extend((0..visible.len()).map(|point| {
-            let others = &self.others[point * self.each..][..self.each];
-            is_voted(point, others.iter().copied(), visible)
-        }));
-        Ok(voted)
-    }
-}
-
-fn is_voted(point: usize, others: impl ExactSizeIterator<Item = u32>, visible: &[bool]) -> bool {
-    let voters = others.len() + 1;
-    let seen =
-        others.filter(|&other| visible[other as usize]).count() + usize::from(visible[point]);
-    5 * seen > FIFTHS * voters
 }
 
 /// `p` projected on the least-squares plane of itself and `nearest`; `p` where that overflows.

@@ -48,7 +48,7 @@ impl PointCloud {
     ///
     /// # Errors
     /// [`Error::Direction`] for a direction that is zero or not finite;
-    /// [`Error::Excludes`] for [`Inversion::Power`], [`Radius::Search`], [`Radius::Opposite`] and
+    /// [`Error::Excludes`] for [`Inversion::Power`], [`Radius::Opposite`] and
     /// a distance in [`Options::within`]; the others of [`PointCloud::visible_from`].
     pub fn visible_from_direction(
         &self,
@@ -64,7 +64,7 @@ impl PointCloud {
             return cloud.seen_by_looks(&mut memory, projection, count, options);
         }
         let (visible, chosen, inversion) = cloud.direction_marks(ahead, options)?;
-        cloud.answer(&visible, options, chosen, inversion)
+        cloud.answer(&visible, chosen, inversion)
     }
 
     fn direction_marks(
@@ -77,8 +77,8 @@ impl PointCloud {
         let lift = Lift::new(&self.bounds, ahead, bend);
         let points = &self.sequence.points;
         let lifted = |index: u32| lift.apply(points.get(index as usize));
-        let (visible, _) = hull::lower_boundary(points.len() as u32, &lifted, options.draft)?;
-        Ok((self.voted(visible, options)?, chosen, inversion))
+        let (visible, _) = hull::lower_boundary(points.len() as u32, &lifted)?;
+        Ok((visible, chosen, inversion))
     }
 
     /// Returns a, and its radius for the viewpoint one diagonal of the box before the centroid.

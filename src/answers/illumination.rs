@@ -60,7 +60,7 @@ impl PointCloud {
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for `smoothing` or `ambient`; [`Error::IndexOutOfRange`] for
-    /// a corner that is no index of the cloud; [`Error::Excludes`] for drafts and
+    /// a corner that is no index of the cloud; [`Error::Excludes`] for
     /// [`Inversion::Looks`](crate::Inversion::Looks); otherwise as
     /// [`PointCloud::visible_from`].
     pub fn illuminate(
@@ -126,10 +126,8 @@ impl Threads<'_> {
             *light = ambient + share * *light;
         }
         if lighting.smoothing > 0 && !lights.is_empty() {
-            // With a distance, each light samples points of its own.
-            let sample = options.sample.filter(|_| !options.has_distance());
-            let cloud = self.chosen(None, &Options { sample, ..*options })?;
-            cloud.soften(&mut brightness, lighting)?;
+            self.part(None, options)?
+                .soften(&mut brightness, lighting)?;
         }
 
         let mut rounded: Vec<f32> = with_capacity(len)?;

@@ -3,8 +3,8 @@
 use crate::answers::looks::{Question, Seen, Series};
 use crate::answers::visibility_map::pool::MapMemory;
 use crate::base::error::Error;
-use crate::cloud::part::Steps;
 use crate::cloud::point_cloud::PointCloud;
+use crate::cloud::selection::Region;
 use crate::hull::Memory;
 
 /// The hull of the last view, and looks that were begun. Its content never changes an answer, as long
@@ -14,8 +14,8 @@ pub(crate) struct ViewMemory {
     pub(crate) hull: Memory,
     pub(crate) maps: MapMemory,
     looks: Option<Series>,
-    /// The steps to the points of the last view.
-    steps: Steps,
+    /// Where the points of the last view were.
+    region: Option<Region>,
 }
 
 impl ViewMemory {
@@ -32,11 +32,11 @@ impl ViewMemory {
         self.looks = None;
     }
 
-    /// Prepares for a view of these points. Forgets the last view if it was of other points.
-    pub(crate) fn see(&mut self, steps: Steps) {
-        if self.steps != steps {
+    /// Prepares for a view of the points in a region. Forgets the last view if it was of other points.
+    pub(crate) fn see(&mut self, region: Option<Region>) {
+        if self.region != region {
             self.forget();
-            self.steps = steps;
+            self.region = region;
         }
     }
 

@@ -46,8 +46,7 @@ use crate::view::refusals::QuestionKind;
 /// # Errors
 /// [`Error::MergeRadius`] unless the radius is [`Radius::Absolute`], or the inversion
 /// an [`Exponential::Scale`];
-/// [`Error::Excludes`] for [`Inversion::Looks`], a draft, and options that choose points or need
-/// their neighbors;
+/// [`Error::Excludes`] for [`Inversion::Looks`] and [`Options::within`];
 /// [`Error::IdsLength`]; those of [`PointCloud::new`] for all positions together (an
 /// index counts through all parts) and of [`PointCloud::visible_from`].
 pub fn merge_visible<P: Position>(

@@ -1,17 +1,15 @@
-//! Many views of one cloud, which share memory. An exact view goes on from its draft.
+//! Many views of one cloud, which share memory.
 
 use crate::answers::memory::ViewMemory;
 use crate::answers::visibility::Visibility;
 use crate::answers::visibility_map::{MapOptions, VisibilityMap};
 use crate::base::error::Error;
 use crate::cloud::point_cloud::PointCloud;
-use crate::hull::division::Sector;
 use crate::view::options::Options;
 
 /// Looks at a cloud from one viewpoint after another.
 ///
-/// The views share memory, and an exact view goes on from its draft. The answers are those of
-/// [`PointCloud::visible_from`], to the bit. The observer keeps about 150 bytes for each visible
+/// The views share memory. The answers are those of [`PointCloud::visible_from`], to the bit. The observer keeps about 150 bytes for each visible
 /// point.
 ///
 /// ```
@@ -57,13 +55,11 @@ impl Observer<'_> {
             .visible_from_with(&mut self.memory, viewpoint, options)
     }
 
-    /// Goes on from a draft in slices, so that a viewer can give an exact view up when its camera
-    /// moves. If the last view was a draft ([`Options::draft`]) of this view, this adds about
-    /// `budget` points to the draft's hull. Returns whether [`Observer::visible_from`] would have
-    /// no point left to add. The answer is the same, to the bit, with slices and without.
-    ///
-    /// Several looks ([`Inversion::Looks`](crate::Inversion::Looks)) need no draft. The first look
-    /// takes about `budget` points at once, then each look is one slice.
+    /// Does a part of the work of a view, so that a viewer can give it up when its camera moves. The first call
+    /// takes one point in eight, each further one about `budget` points. Several looks
+    /// ([`Inversion::Looks`](crate::Inversion::Looks)) go on look by look. [`Observer::visible_from`] then goes on from there.
+    /// Returns whether little more than the answer is left. The answer is the same, to the bit, with slices and
+    /// without.
     ///
     /// # Errors
     /// As [`PointCloud::visible_from`].
@@ -75,20 +71,6 @@ impl Observer<'_> {
     ) -> Result<bool, Error> {
         self.cloud
             .go_on_with(&mut self.memory, viewpoint, options, budget)
-    }
-
-    /// As [`PointCloud::visible_in_sector`].
-    ///
-    /// # Errors
-    /// As [`PointCloud::visible_from`].
-    pub fn visible_in_sector(
-        &mut self,
-        viewpoint: [f64; 3],
-        options: &Options,
-        sector: Sector,
-    ) -> Result<Visibility, Error> {
-        self.cloud
-            .visible_in_sector_with(&mut self.memory, viewpoint, options, sector)
     }
 
     /// As [`PointCloud::visibility_map`]. The points to choose from are kept for the next map.

@@ -1,5 +1,5 @@
-//! The one place where a question gets its points. Options that choose points, or move them, lead
-//! to a cloud of these points alone; no question knows of them.
+//! The one place where a question gets its points. Options that choose points lead to a cloud of these points
+//! alone; no question knows of them.
 
 use alloc::boxed::Box;
 use alloc::vec::Vec;
@@ -10,7 +10,6 @@ use crate::answers::visibility::Visibility;
 use crate::base::allocation::{OutOfMemory, with_capacity};
 use crate::base::error::Error;
 use crate::base::threads::deal;
-use crate::cloud::part::Step;
 use crate::cloud::point_cloud::PointCloud;
 use crate::cloud::selection::{Region, Within};
 use crate::view::options::Options;
@@ -55,22 +54,9 @@ impl PointCloud {
         })
     }
 
-    /// The cloud of an even sample of `count` distinct places, for many views. [`Options::sample`]
-    /// asks the same cloud. Indices stay.
-    ///
-    /// # Errors
-    /// [`Error::OutOfRange`] unless `count` is at least 1; [`Error::OutOfMemory`].
-    pub fn sampled(&self, count: usize) -> Result<Self, Error> {
-        let sampled = self.after(Step::Sample(count))?;
-        Ok(sampled.unwrap_or_else(|| self.clone()))
-    }
-
-    /// Prepares the cloud for views with the same `within`, `sample`, `denoise` and `vote`. It
-    /// keeps the points in the box, the sampled or the denoised points, and the neighbors that
-    /// vote (up to 64 a point, 4 bytes each), until points are appended or removed. Answers are
-    /// the same as without preparation. A view then need not choose points or search neighbors.
-    /// This saves some microseconds a point. Nothing is kept for a distance, because each
-    /// viewpoint has other points there.
+    /// Prepares the cloud for views with the same `within`: keeps the points in the box until points are appended or
+    /// removed. Answers are the same as without preparation. A view then need not choose points. Nothing is kept for a
+    /// distance, because each viewpoint has other points there.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] and [`Error::BoundsInvalid`] as for the view;
@@ -85,15 +71,17 @@ impl PointCloud {
         viewpoint: Option<[f64; 3]>,
         options: &Options,
     ) -> Result<(), Error> {
-        let steps = options.steps(viewpoint)?;
-        if viewpoint.is_none() && options.has_distance() {
+        let Some(region) = options.region(viewpoint)? else {
+            return Ok(());
+        };
+        let is_kept = matches!(&self.kept.within, Some((kept, _)) if *kept == region);
+        if is_kept || viewpoint.is_none() && options.has_distance() {
             return Ok(());
         }
-        let mut cloud = self;
-        for step in steps.into_iter().flatten() {
-            cloud = cloud.kept_after(step)?;
-        }
-        cloud.keep_voters(options)
+        // Another part is freed first: there may be no memory for two.
+        self.kept.within = None;
+        self.kept.within = Some((region, Box::new(self.of_region(&region)?)));
+        Ok(())
     }
 
     /// The points of a question with these options. Without a viewpoint, a distance does not count.
@@ -102,27 +90,13 @@ impl PointCloud {
         viewpoint: Option<[f64; 3]>,
         options: &Options,
     ) -> Result<Part<'_>, Error> {
-        let mut part = Part::Kept(self);
-        for step in options.steps(viewpoint)?.into_iter().flatten() {
-            part = part.then(step)?;
+        let Some(region) = options.region(viewpoint)? else {
+            return Ok(Part::Kept(self));
+        };
+        match &self.kept.within {
+            Some((kept, part)) if *kept == region => Ok(Part::Kept(part)),
+            _ => Ok(Part::Made(Box::new(self.of_region(&region)?))),
         }
-        Ok(part)
-    }
-
-    /// The same at their own places: not denoised.
-    pub(crate) fn chosen(
-        &self,
-        viewpoint: Option<[f64; 3]>,
-        options: &Options,
-    ) -> Result<Part<'_>, Error> {
-        let denoise = None;
-        self.part(
-            viewpoint,
-            &Options {
-                denoise,
-                ..*options
-            },
-        )
     }
 
     /// Passes the view from each seat, with its number, in any order. A seat may have its own part.
@@ -183,30 +157,6 @@ impl PointCloud {
         }
     }
 
-    /// The cloud after a step, which is kept from now on.
-    fn kept_after(&mut self, step: Step) -> Result<&mut Self, Error> {
-        // Another part is freed first: there may be no memory for two.
-        let kept = self.kept.parts.place(step).take();
-        let part = match kept.filter(|(kept, _)| *kept == step) {
-            Some((_, part)) => part,
-            None => match self.after(step)? {
-                Some(part) => Box::new(part),
-                None => return Ok(self),
-            },
-        };
-        Ok(&mut self.kept.parts.place(step).insert((step, part)).1)
-    }
-
-    /// The cloud after a step; `None` if it is this cloud.
-    #[inline(never)]
-    fn after(&self, step: Step) -> Result<Option<Self>, Error> {
-        match step {
-            Step::Within(region) => Ok(Some(self.of_region(&region)?)),
-            Step::Sample(count) => self.sample(count),
-            Step::Denoise(k) => Ok(Some(self.denoised(k)?)),
-        }
-    }
-
     fn of_region(&self, region: &Region) -> Result<Self, OutOfMemory> {
         let points = &self.sequence.points;
         let mut places: Vec<u32> = with_capacity(points.len())?;
@@ -245,20 +195,5 @@ impl Deref for Part<'_> {
             Self::Kept(cloud) => cloud,
             Self::Made(cloud) => cloud,
         }
-    }
-}
-
-impl Part<'_> {
-    /// The part of this part after one more step.
-    fn then(self, step: Step) -> Result<Self, Error> {
-        if let Self::Kept(cloud) = self {
-            if let Some(kept) = cloud.kept.parts.get(step) {
-                return Ok(Self::Kept(kept));
-            }
-        }
-        Ok(match self.after(step)? {
-            Some(made) => Self::Made(Box::new(made)),
-            None => self,
-        })
     }
 }

@@ -35,9 +35,7 @@ impl PointCloud {
     ///
     /// Triangles with an edge longer than `max_edge` are left out (`None`: 5 spacings; infinity
     /// keeps all), and so are triangles that touch the viewpoint. The lowest index stands for
-    /// equal points. With [`Options::denoise`] the hull is that of the denoised points, but edges
-    /// are measured between the points as given. With [`Options::vote`] a triangle is left out if
-    /// one of its corners was voted hidden.
+    /// equal points.
     ///
     /// ```
     /// use hidden_point_removal::{Options, PointCloud};
@@ -52,7 +50,7 @@ impl PointCloud {
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for a `max_edge` that is negative or NaN; [`Error::Excludes`]
-    /// for drafts and for [`Inversion::Looks`](crate::Inversion::Looks), which are several hulls; otherwise
+    /// for [`Inversion::Looks`](crate::Inversion::Looks), which are several hulls; otherwise
     /// as [`PointCloud::visible_from`].
     pub fn reconstruct(
         &self,
@@ -61,13 +59,12 @@ impl PointCloud {
         max_edge: Option<f64>,
     ) -> Result<Reconstruction, Error> {
         options.check(QuestionKind::Reconstruct)?;
-        let chosen = self.chosen(Some(viewpoint), options)?;
+        let part = self.part(Some(viewpoint), options)?;
         let longest = match max_edge {
             Some(longest) => longest,
-            None => SPACINGS * chosen.spacing()?,
+            None => SPACINGS * part.spacing()?,
         };
         in_range("maxEdge", longest, 0.0, f64::INFINITY)?;
-        let part = self.part(Some(viewpoint), options)?;
         let (visibility, mut triangles) = part.triangulate(viewpoint, options)?;
         if longest < f64::INFINITY {
             let places = self.places()?;
@@ -95,10 +92,6 @@ impl PointCloud {
         let view = self.view(viewpoint, options)?;
         let (visible, mut triangles) =
             hull::triangulate_visible(&self.sequence.points, &view.flip)?;
-        let visible = self.voted(visible, options)?;
-        if options.vote.is_some() {
-            triangles.retain(|corners| corners.iter().all(|&k| visible[k as usize]));
-        }
         let lowest = |k: u32| self.sequence.indices_of(k as usize).iter().copied().min();
         for corners in &mut triangles {
             // Every distinct point has an index.
@@ -107,7 +100,7 @@ impl PointCloud {
             corners.rotate_left(first);
         }
         sort_by_corners(&mut triangles)?;
-        let visibility = self.answer(&visible, options, view.chosen, view.inversion)?;
+        let visibility = self.answer(&visible, view.chosen, view.inversion)?;
         Ok((visibility, triangles))
     }
 

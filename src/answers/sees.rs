@@ -22,10 +22,10 @@ impl PointCloud {
     ///
     /// The answer is that of a cloud with this one point more, with the radius and the inversion of
     /// the view without it. A position farther than the radius is not visible, nor one outside of
-    /// [`Options::within`]. [`Options::denoise`] moves the points of the cloud, not the positions.
+    /// [`Options::within`].
     ///
-    /// One hull serves all positions, and a position takes one walk on it. Looks and a vote make new
-    /// hulls for each position.
+    /// One hull serves all positions, and a position takes one walk on it. Looks make new hulls
+    /// for each position.
     ///
     /// ```
     /// use hidden_point_removal::{Options, PointCloud};
@@ -40,7 +40,7 @@ impl PointCloud {
     ///
     /// # Errors
     /// [`Error::NonFinite`] for the positions, unless the cloud skips such points: then they are
-    /// not visible; [`Error::Excludes`] for drafts and scores; otherwise as
+    /// not visible; [`Error::Excludes`] for scores; otherwise as
     /// [`PointCloud::visible_from`].
     pub fn sees<P: Position>(
         &self,
@@ -122,12 +122,10 @@ impl<'a> OpenView<'a> {
             open.options.radius = Radius::Absolute(chosen.radius);
             open.reach = chosen.radius;
         }
-        if options.vote.is_none() {
-            let points = &cloud.sequence.points;
-            let hull = KeptHull::of(points, &cloud.blocks.levels[0], &flip)?;
-            let hint = hull.first_hint();
-            open.hull = Some(OneHull { flip, hull, hint });
-        }
+        let points = &cloud.sequence.points;
+        let hull = KeptHull::of(points, &cloud.blocks.levels[0], &flip)?;
+        let hint = hull.first_hint();
+        open.hull = Some(OneHull { flip, hull, hint });
         Ok(open)
     }
 
@@ -153,7 +151,7 @@ impl<'a> OpenView<'a> {
         let cloud = self.cloud.with_point(place)?;
         let visible = hull::visible_once(&cloud.sequence.points, &flip)?;
         let chosen = ChosenRadius::unit(0.0);
-        let seen = cloud.answer(&visible, &self.options, chosen, self.options.inversion)?;
+        let seen = cloud.answer(&visible, chosen, self.options.inversion)?;
         Ok(self.holds_new(&seen))
     }
 

@@ -14,7 +14,7 @@ const MOST: f64 = 256.0;
 ///
 /// Several viewpoints are shared among the threads. If there are fewer viewpoints than threads,
 /// each view is divided by direction. This needs spherical flipping with an exponent below 8, and
-/// neither looks nor a draft: then one thread computes the view. All other questions to the
+/// no looks: otherwise one thread computes the view. All other questions to the
 /// [`PointCloud`] can be asked, too, with one thread. While a question is answered, each thread
 /// takes about 150 bytes for each visible point of its share, and one byte for each point.
 ///

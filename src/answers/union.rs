@@ -71,7 +71,7 @@ impl PointCloud {
             Inversion::Looks(_) => options.inversion,
             _ => self.resolved_inversion(options)?,
         };
-        self.answer(&[], options, ChosenRadius::unit(0.0), inversion)
+        self.answer(&[], ChosenRadius::unit(0.0), inversion)
     }
 }
 

@@ -7,9 +7,7 @@ use crate::answers::memory::ViewMemory;
 use crate::answers::threads::Threads;
 use crate::base::allocation::{OutOfMemory, copied, filled, with_capacity};
 use crate::base::bits::{bits_of, places};
-use crate::base::build::FULL;
 use crate::base::error::Error;
-use crate::cloud::part::Steps;
 use crate::cloud::point_cloud::PointCloud;
 use crate::hull;
 use crate::view::options::{Exponential, Inversion, Options, Radius};
@@ -133,8 +131,7 @@ impl Visibility {
 
     /// A score for each index of the cloud: how likely the point is visible, from 0 to 1. It is
     /// 0 for skipped or removed points. The list is empty unless [`Options::scores`] is set. A
-    /// visible point may have a score below ½, and a hidden point one above ½. With
-    /// [`Options::vote`] the scores belong to the answer before the vote.
+    /// visible point may have a score below ½, and a hidden point one above ½.
     #[must_use]
     pub fn scores(&self) -> &[f32] {
         &self.scores
@@ -146,8 +143,7 @@ impl Visibility {
         self.scores
     }
 
-    /// Whether this is the final answer to the question. It is false for drafts
-    /// ([`Options::draft`]), samples ([`Options::sample`]), and some clouds of a
+    /// Whether this is the exact answer to the question. It is false only for some clouds of a
     /// [`PointCloudNd`](crate::PointCloudNd).
     #[must_use]
     pub fn exact(&self) -> bool {
@@ -193,9 +189,7 @@ impl PointCloud {
     /// # Errors
     /// [`Error::Viewpoint`] for a viewpoint that is not finite; the `Radius…`
     /// errors for a choice of R that does not fit the view, or its
-    /// inversion; [`Error::Parameter`]; [`Error::OutOfRange`]
-    /// unless 1 ≤ k < the number of present points for [`Options::denoise`] and
-    /// [`Options::vote`], and for a number of looks that is not 2 or 3;
+    /// inversion; [`Error::Parameter`]; [`Error::OutOfRange`] for a number of looks that is not 2 or 3;
     /// [`Error::Excludes`] for options that exclude each other; [`Error::BoundsInvalid`];
     /// [`Error::OutOfMemory`].
     pub fn visible_from(
@@ -215,11 +209,11 @@ impl PointCloud {
     ) -> Result<Visibility, Error> {
         options.check(QuestionKind::View)?;
         let part = self.part(Some(viewpoint), options)?;
-        memory.see(options.steps(Some(viewpoint))?);
+        memory.see(options.region(Some(viewpoint))?);
         part.seen_by(1, memory, viewpoint, options)
     }
 
-    /// The view of all points of this cloud, which takes no step to a part. So many threads share it where it can be
+    /// The view of all points of this cloud. So many threads share it where it can be
     /// divided.
     #[inline(never)]
     pub(crate) fn seen_by(
@@ -235,7 +229,7 @@ impl PointCloud {
         self.seen_by_hull(threads, &mut memory.hull, viewpoint, options)
     }
 
-    /// The view of one hull, without options that choose or move points. `memory` holds the last one.
+    /// The view of one hull, without options that choose points. `memory` holds the last one.
     pub(crate) fn seen_by_hull(
         &self,
         threads: usize,
@@ -244,32 +238,21 @@ impl PointCloud {
         options: &Options,
     ) -> Result<Visibility, Error> {
         let view = self.view(viewpoint, options)?;
-        let shared = self.marked_by(threads, viewpoint, &view, options)?;
+        let shared = self.marked_by(threads, viewpoint, &view)?;
         let visible = match &shared {
             Some(shared) => shared,
             None => {
                 let points = &self.sequence.points;
                 let blocks = &self.blocks.levels[0];
-                let mark = if FULL && options.draft {
-                    hull::mark_draft
-                } else {
-                    hull::mark_visible
-                };
-                mark(points, blocks, &view.flip, memory)?;
+                hull::mark_visible(points, blocks, &view.flip, memory)?;
                 memory.visible()
             }
         };
-        match options.vote {
-            Some(k) if FULL => {
-                let voted = self.vote(k, visible)?;
-                self.answer(&voted, options, view.chosen, view.inversion)
-            }
-            _ => self.answer(visible, options, view.chosen, view.inversion),
-        }
+        self.answer(visible, view.chosen, view.inversion)
     }
 
-    /// Goes on from a draft of the same view, if `memory` holds one, with about `budget` points.
-    /// Looks need no draft. Returns whether [`PointCloud::visible_from_with`] would have no point left to add.
+    /// Does a part of the work of a view: about `budget` points, kept in `memory`. Returns whether
+    /// [`PointCloud::visible_from_with`] would have little more left than the answer.
     pub(crate) fn go_on_with(
         &self,
         memory: &mut ViewMemory,
@@ -278,12 +261,12 @@ impl PointCloud {
         budget: usize,
     ) -> Result<bool, Error> {
         options.check(QuestionKind::View)?;
-        let steps = options.steps(Some(viewpoint))?;
-        // To make a part again for each slice would take too long.
-        if options.draft || steps != Steps::default() {
+        let region = options.region(Some(viewpoint))?;
+        // To choose the points again for each slice would take too long.
+        if region.is_some() {
             return Ok(true);
         }
-        memory.see(steps);
+        memory.see(region);
         if let Some(count) = looks(options)? {
             let question = question(Projection::Perspective(viewpoint), count, options);
             return memory.go_on_looking(self, question, budget);
@@ -314,9 +297,8 @@ impl PointCloud {
         } else {
             Vec::new()
         };
-        let visible = self.voted(seen.visible, options)?;
         let chosen = ChosenRadius::unit(0.0);
-        let answer = self.answer(&visible, options, chosen, options.inversion)?;
+        let answer = self.answer(&seen.visible, chosen, options.inversion)?;
         let looks = copied(&seen.scales[..count])?;
         Ok(Visibility {
             scores,
@@ -325,20 +307,11 @@ impl PointCloud {
         })
     }
 
-    /// The marks after the vote, if `options` ask for one.
-    pub(crate) fn voted(&self, visible: Vec<bool>, options: &Options) -> Result<Vec<bool>, Error> {
-        match options.vote {
-            Some(k) => self.vote(k, &visible),
-            None => Ok(visible),
-        }
-    }
-
     /// The answer for marked distinct points.
     #[inline(never)]
     pub(crate) fn answer(
         &self,
         visible: &[bool],
-        options: &Options,
         chosen: ChosenRadius,
         inversion: Inversion,
     ) -> Result<Visibility, Error> {
@@ -346,7 +319,6 @@ impl PointCloud {
             self.sequence.indices_of(k)
         })?;
         let mut answer = Visibility::new(indices, self.len(), chosen, inversion);
-        answer.exact = options.is_exact();
         if let Inversion::Looks(count) = inversion {
             let scales = even_scales(count, &self.statistics()?, &*self.known_noise()?);
             answer.looks = copied(&scales[..count])?;

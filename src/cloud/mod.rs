@@ -7,7 +7,6 @@ pub(crate) mod filling;
 mod hilbert;
 pub(crate) mod neighbors;
 pub(crate) mod noise;
-pub(crate) mod part;
 pub(crate) mod plane;
 pub(crate) mod point_cloud;
 pub(crate) mod points;

@@ -11,8 +11,8 @@ use crate::base::error::Error;
 use crate::base::once::Once;
 use crate::cloud::blocks::Blocks;
 use crate::cloud::noise::{Noise, Surface};
-use crate::cloud::part::KeptParts;
 use crate::cloud::points::{Given, Points, Position, checked_len, is_finite};
+use crate::cloud::selection::Region;
 use crate::cloud::sequence::Sequence;
 use crate::cloud::spatial::{Bounds, HilbertCurve};
 use crate::cloud::statistics::Statistics;
@@ -55,8 +55,8 @@ pub struct PointCloud {
 /// What is kept for the next questions.
 #[derive(Default)]
 pub(crate) struct Kept {
-    pub parts: KeptParts<PointCloud>,
-    pub voters: Option<Voters>,
+    /// The cloud of the points in a region.
+    pub within: Option<(Region, Box<PointCloud>)>,
     pub statistics: Once<Statistics>,
     pub noise: Once<Arc<Noise>>,
     pub surface: Once<Surface>,
@@ -86,13 +86,6 @@ impl Clone for Kept {
     fn clone(&self) -> Self {
         Self::default()
     }
-}
-
-/// The `each` nearest other points of every point: `k` of them, or fewer in a small cloud.
-pub(crate) struct Voters {
-    pub k: usize,
-    pub each: usize,
-    pub others: Vec<u32>,
 }
 
 impl PointCloud {

@@ -46,7 +46,7 @@ impl Within {
 }
 
 /// A part of space.
-#[derive(Clone, Copy, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Region {
     /// A distance and the center from which it counts.
     around: Option<(f64, [f64; 3])>,

@@ -138,11 +138,6 @@ impl Sequence {
         })
     }
 
-    /// How many points there are, equal ones counted each.
-    pub(crate) fn present(&self) -> usize {
-        self.indices.order.len()
-    }
-
     /// The caller's indices at other `positions`, one for each distinct point, along
     /// the curve through those.
     pub(crate) fn moved(

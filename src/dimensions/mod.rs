@@ -136,8 +136,7 @@ impl PointCloudNd {
     /// tolerance of [`PointCloudNd`].
     ///
     /// # Errors
-    /// [`Error::ViewpointDimension`]; [`Error::Dimension`] for [`Options::denoise`] and
-    /// [`Options::vote`]; the others of `PointCloud::visible_from`.
+    /// [`Error::ViewpointDimension`]; [`Error::Dimension`] for [`Options::within`]; the others of `PointCloud::visible_from`.
     pub fn visible_from(&self, viewpoint: &[f64], options: &Options) -> Result<Visibility, Error> {
         self.visible_from_any(&[viewpoint], options)
     }

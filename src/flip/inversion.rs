@@ -120,7 +120,7 @@ impl Flip {
     pub(crate) fn reach(&self) -> f64 {
         let times = match self.kernel {
             Kernel::Spherical { .. } => 2.0,
-            // On a sphere |q| is up to 3R; here it is up to √3 of the largest coordinate.
+            // |q| is up to √3 of the largest coordinate.
             _ => 4.0,
         };
         times * self.extent * self.scale
@@ -148,7 +148,7 @@ impl Flip {
                 self.extent = self.length_of_nearest(points);
             }
             Kernel::Power { .. } => self.extent = self.largest_coordinate(points),
-            Kernel::Spherical { .. } | Kernel::Antipodal { .. } => {}
+            Kernel::Spherical { .. } => {}
         }
         if MODERATE.contains(&self.extent) || self.extent == 0.0 {
             return self;

@@ -1,6 +1,6 @@
 //! The kernels. A kernel gives the distance |q| = d·s to which a flip moves a point at
 //! distance d, and the factor s of q = v·s. Except for rounding, |q| strictly decreases as d
-//! grows. Only with the antipodal kernel it strictly increases.
+//! grows.
 //!
 //! pow and exp come from `libm` in every build, so that all of them round alike.
 
@@ -12,9 +12,6 @@ use crate::base::real::smaller;
 pub(crate) enum Kernel {
     /// |q| = 2R − d: spherical flipping (paper §3, eq. 1).
     Spherical { radius: f64 },
-    /// |q| = 2R + d: the farthest point of a ray wins, as in a look back along the same rays. It is
-    /// used only for choosing R (`radius::search`).
-    Antipodal { radius: f64 },
     /// |q| = d·(d/S)^−γ: the paper's other kernel (§3), 1/‖p‖^γ.
     Power { gamma: f64, unit: f64 },
     /// |q| = exp(c/d).
@@ -36,7 +33,6 @@ impl Kernel {
     pub(crate) fn factor(&self, d: f64) -> f64 {
         match *self {
             Self::Spherical { radius } => (2.0 * radius - d) / d,
-            Self::Antipodal { radius } => (2.0 * radius + d) / d,
             Self::Power { gamma, unit } => libm::pow(d / unit, -gamma),
             Self::Exponential { scale } => exponential(scale, d) / d,
             Self::Growing { .. } => self.length(d) / d,
@@ -71,7 +67,6 @@ impl Kernel {
         }
         match *self {
             Self::Spherical { radius } => 2.0 * radius - length,
-            Self::Antipodal { .. } => f64::INFINITY,
             Self::Power { gamma, unit } => unit * libm::pow(length / unit, 1.0 / (1.0 - gamma)),
             Self::Exponential { scale } if length > 1.0 => scale / libm::log(length),
             Self::Exponential { .. } => f64::INFINITY,
@@ -100,7 +95,7 @@ impl Kernel {
     /// largest |q| depends on the points.
     pub(crate) fn radius(&self) -> Option<f64> {
         match *self {
-            Self::Spherical { radius } | Self::Antipodal { radius } => Some(radius),
+            Self::Spherical { radius } => Some(radius),
             Self::Power { .. } | Self::Exponential { .. } | Self::Growing { .. } => None,
         }
     }

@@ -24,12 +24,10 @@ use crate::hull::topology::{Face, FaceId, Surface, Vertex};
 const ABOVE: Vertex = 0;
 
 /// Marks the points on the lower boundary among `count`, and returns its faces. There are none
-/// where all points lie above one line. For a draft, it marks all points that are not above the
-/// boundary of one point in eight.
+/// where all points lie above one line.
 pub(crate) fn lower_boundary<'a>(
     count: u32,
     lifted: &'a dyn Fn(u32) -> DVec3,
-    draft: bool,
 ) -> Result<(Vec<bool>, Option<LowerFaces<'a>>), OutOfMemory> {
     let mut visible = filled(count as usize, false)?;
     let seed = first_triangle(count, order::sample_step(count), lifted)
@@ -38,7 +36,7 @@ pub(crate) fn lower_boundary<'a>(
         mark_upright(count, lifted, &mut visible)?;
         return Ok((visible, None));
     };
-    let (hull, last) = mark_in_space(count, lifted, corners, draft, &mut visible)?;
+    let (hull, last) = mark_in_space(count, lifted, corners, &mut visible)?;
     Ok((visible, Some(LowerFaces { hull, lifted, last })))
 }
 
@@ -115,14 +113,13 @@ fn mark_in_space(
     count: u32,
     lifted: &dyn Fn(u32) -> DVec3,
     corners: [u32; 3],
-    draft: bool,
     visible: &mut [bool],
 ) -> Result<(LowerHull, FaceId), OutOfMemory> {
     let mut hull = LowerHull::new(corners, lifted)?;
     // Points on the boundary now. They are visible only if they are still on it at the end.
     let mut on_boundary: Vec<u32> = Vec::new();
     let mut hint = 0;
-    let rounds = order::coarse_rounds().chain((!draft).then_some(order::last_round()));
+    let rounds = order::coarse_rounds().chain([order::last_round()]);
     for round in rounds {
         for index in round.indices(count) {
             let q = lifted(index);
@@ -135,14 +132,6 @@ fn mark_in_space(
                 }
                 Sign::Negative => face,
             };
-        }
-    }
-    if draft {
-        // A point above the hull of one point in eight is above the hull of all points.
-        for index in order::last_round().indices(count) {
-            let (face, side) = hull.locate(lifted(index), hint);
-            visible[index as usize] = side != Sign::Negative;
-            hint = face;
         }
     }
     for (_, face) in hull.surface.alive() {

@@ -1,11 +1,10 @@
-//! The hull of one view: points are added to it, and the complete hull is read. An exact view may
-//! go on from the hull of its draft.
+//! The hull of one view: points are added to it, and the complete hull is read. A view may be computed
+//! in slices.
 
 use alloc::vec::Vec;
 
 use crate::base::allocation::{OutOfMemory, push};
 use crate::base::beat;
-use crate::base::bits::bits_of;
 use crate::base::build::FULL;
 use crate::base::real::one_by_one;
 use crate::flip::inversion::Flip;
@@ -34,9 +33,9 @@ pub(super) enum State {
     /// No hull that has a use.
     #[default]
     Empty,
-    /// The hull of a draft, to which points of the last round may have been added. `visible` holds
-    /// the draft's points. The next view may go on from there.
-    Draft(Flip, LastRound),
+    /// The hull of one point in eight, to which points of the last round may have been added. The next
+    /// view with this flip goes on from there.
+    Begun(Flip, LastRound),
     /// The complete hull.
     Complete,
 }
@@ -78,13 +77,17 @@ impl Memory {
         matches!(self.state, State::Complete)
     }
 
-    /// How far the last round of a draft with this flip has come; `None` if the last view was no
-    /// such draft.
-    pub(super) fn drafted(&self, flip: &Flip) -> Option<LastRound> {
+    /// How far the last round of a view with this flip has come; `None` if no such view was begun.
+    pub(super) fn begun(&self, flip: &Flip) -> Option<LastRound> {
         match self.state {
-            State::Draft(drafted, round) if FULL && drafted == *flip => Some(round),
+            State::Begun(begun, round) if FULL && begun == *flip => Some(round),
             _ => None,
         }
+    }
+
+    /// Keeps a hull, of which the last round has come so far.
+    pub(super) fn begin(&mut self, flip: Flip, round: LastRound) {
+        self.state = State::Begun(flip, round);
     }
 }
 
@@ -129,7 +132,7 @@ impl Memory {
             self.depth.clear();
         }
         let mut round = self.last_round();
-        self.add_last_round(flipped, &mut round, false, usize::MAX)?;
+        self.add_last_round(flipped, &mut round, usize::MAX)?;
         Ok(())
     }
 
@@ -140,8 +143,7 @@ impl Memory {
         LastRound { runs: 0, reached }
     }
 
-    /// Adds the points of the last round that the map does not hide. After a draft, these are the
-    /// points that it shows, and no point is tested again. Stops after about `budget` points.
+    /// Adds the points of the last round that the map does not hide. Stops after about `budget` points.
     /// Returns whether all are added. To stop and to go on changes nothing, not even how faces are
     /// numbered: where a ray passes exactly through an edge, the first outer face chooses the
     /// triangle.
@@ -150,7 +152,6 @@ impl Memory {
         &mut self,
         flipped: &Flipped,
         round: &mut LastRound,
-        is_drafted: bool,
         mut budget: usize,
     ) -> Result<bool, OutOfMemory> {
         let mut hint = round.reached;
@@ -161,11 +162,7 @@ impl Memory {
             }
             beat::step();
             round.runs += 1;
-            let added = if is_drafted {
-                bits_of(&self.visible[run.start as usize..run.end as usize]) & LAST_ROUND
-            } else {
-                self.depth.not_hidden(flipped, run.start, LAST_ROUND)
-            };
+            let added = self.depth.not_hidden(flipped, run.start, LAST_ROUND);
             // To test a block takes about as long as to add a few points.
             budget = budget.saturating_sub(8 + added.count_ones() as usize);
             for index in points_at(run.start, added) {

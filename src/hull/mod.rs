@@ -14,7 +14,6 @@ mod angular_order;
 #[cfg(debug_assertions)]
 mod assertions;
 mod boxes;
-mod certain;
 mod chain;
 mod depth;
 mod dual_plane;
@@ -37,7 +36,6 @@ mod topology;
 mod triangles;
 
 pub(crate) use boxes::hides_box;
-pub(crate) use certain::certain_among;
 pub(crate) use depth::{Window, direction, place};
 #[cfg(feature = "higher")]
 pub(crate) use exact_sum::Parts;
@@ -45,7 +43,7 @@ pub(crate) use kept::KeptHull;
 pub(crate) use lower::lower_boundary;
 pub(crate) use memory::Memory;
 pub(crate) use outer_boundary::{
-    complete, go_on, mark_draft, mark_sector, mark_visible, triangulate_visible, visible_once,
+    complete, go_on, mark_sector, mark_visible, triangulate_visible, visible_once,
 };
 pub(crate) use outer_faces::{Exit, OuterFaces};
 pub(crate) use reaches::{Reaches, Side, grid};

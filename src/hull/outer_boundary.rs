@@ -1,18 +1,17 @@
-//! Finds the points on the outer boundary. There are four ways: the hull of a draft is completed, a
+//! Finds the points on the outer boundary. There are four ways: a hull that was begun is completed, a
 //! new hull is started, the view is divided, or all points are in one plane with the viewpoint.
 
 use alloc::vec::Vec;
 use glam::DVec3;
 
 use crate::base::allocation::OutOfMemory;
-use crate::base::beat;
 use crate::cloud::blocks::Sphere;
 use crate::cloud::points::Points;
 use crate::flip::inversion::Flip;
 use crate::hull::angular_order::AngularOrder;
 use crate::hull::division::Division;
 use crate::hull::flipped::Flipped;
-use crate::hull::memory::{Memory, State};
+use crate::hull::memory::Memory;
 use crate::hull::predicates::{Sign, side_of_origin};
 use crate::hull::{flat, order, share};
 
@@ -25,10 +24,9 @@ pub(crate) fn mark_visible(
     memory: &mut Memory,
 ) -> Result<(), OutOfMemory> {
     let flipped = Flipped::of(points, blocks, flip);
-    if let Some(mut round) = memory.drafted(flip) {
+    if let Some(mut round) = memory.begun(flip) {
         memory.forget();
-        memory.add_last_round(&flipped, &mut round, true, usize::MAX)?;
-        memory.clear_marks(points.len())?;
+        memory.add_last_round(&flipped, &mut round, usize::MAX)?;
         return memory.finish(&flipped);
     }
     // Where the flip is slow, the map would flip most points of the last round once more, which
@@ -71,40 +69,9 @@ pub(crate) fn mark_sector(
     Ok(())
 }
 
-/// Marks all visible points and some hidden ones, from the hull of one point in eight. If the
-/// same view is asked with [`mark_visible`] next, it goes on from this hull.
-#[inline(never)]
-pub(crate) fn mark_draft(
-    points: &Points,
-    blocks: &[Sphere],
-    flip: &Flip,
-    memory: &mut Memory,
-) -> Result<(), OutOfMemory> {
-    if memory.drafted(flip).is_some() {
-        return Ok(());
-    }
-    let flipped = Flipped::of(points, blocks, flip);
-    if !start(&flipped, points.len(), memory)? {
-        return Ok(());
-    }
-    memory.add_coarse_rounds(&flipped)?;
-    memory.make_map(&flipped)?;
-    memory.mark_boundary(&flipped)?;
-    for run in order::runs(points.len() as u32) {
-        beat::step();
-        let shown = memory
-            .depth
-            .not_hidden(&flipped, run.start, order::LAST_ROUND);
-        for index in order::points_at(run.start, shown) {
-            memory.visible[index as usize] = true;
-        }
-    }
-    memory.state = State::Draft(*flip, memory.last_round());
-    Ok(())
-}
-
-/// Goes on with the hull of a draft, if the last view was a draft with this flip: adds about
-/// `budget` points to it. Returns whether [`mark_visible`] will find no point left to add.
+/// Does a part of the work of [`mark_visible`], which goes on from there if its flip is the same. First it
+/// makes the hull of one point in eight, then each call adds about `budget` points. Returns whether no
+/// point is left to add.
 #[inline(never)]
 pub(crate) fn go_on(
     points: &Points,
@@ -113,13 +80,19 @@ pub(crate) fn go_on(
     memory: &mut Memory,
     budget: usize,
 ) -> Result<bool, OutOfMemory> {
-    let Some(mut round) = memory.drafted(flip) else {
-        return Ok(true);
+    let flipped = Flipped::of(points, blocks, flip);
+    let Some(mut round) = memory.begun(flip) else {
+        if !start(&flipped, points.len(), memory)? {
+            return Ok(true);
+        }
+        memory.add_coarse_rounds(&flipped)?;
+        memory.make_map(&flipped)?;
+        memory.begin(*flip, memory.last_round());
+        return Ok(false);
     };
     memory.forget();
-    let flipped = Flipped::of(points, blocks, flip);
-    let is_done = memory.add_last_round(&flipped, &mut round, true, budget)?;
-    memory.state = State::Draft(*flip, round);
+    let is_done = memory.add_last_round(&flipped, &mut round, budget)?;
+    memory.begin(*flip, round);
     Ok(is_done)
 }
 

@@ -1,5 +1,5 @@
-//! Choosing the radius R of the flipping sphere (paper §4): by the closed form, by a search
-//! that asks the hull, or as given.
+//! Choosing the radius R of the flipping sphere (paper §4): by the closed form, by the paper's
+//! own rule, or as given.
 
 use alloc::vec::Vec;
 
@@ -12,7 +12,7 @@ use crate::flip::kernel::Kernel;
 use crate::hull::visible_once;
 use crate::view::options::Radius;
 use crate::view::radius::{ChosenRadius, automatic, from_radius, given};
-use crate::view::search::{self, Seen};
+use crate::view::search::opposite;
 
 /// Computes which distinct points are visible from a place, flipped by a kernel.
 type Seeing<'a> = dyn Fn(&[f64], Kernel) -> Result<Vec<bool>, Error> + 'a;
@@ -35,15 +35,7 @@ impl RadiusInput<'_> {
     /// Turns the caller's choice into a radius.
     pub(crate) fn resolve(&self, choice: Radius) -> Result<ChosenRadius, Error> {
         let (viewpoint, farthest) = (self.viewpoint, self.farthest);
-        let seen_from_both = |[here, there]: [(&[f64], Kernel); 2]| {
-            let here = (self.seen)(here.0, here.1)?;
-            let there = (self.seen)(there.0, there.1)?;
-            Ok(Seen::count(&here, &there))
-        };
         match choice {
-            Radius::Search if FULL => search::antipodal(self.automatic, farthest, &mut |kernels| {
-                seen_from_both(kernels.map(|kernel| (viewpoint, kernel)))
-            }),
             Radius::Opposite if FULL => {
                 let mut mirror = with_capacity(viewpoint.len())?;
                 let axes = self.centroid.iter().zip(viewpoint);
@@ -53,16 +45,16 @@ impl RadiusInput<'_> {
                 let opposite = if mirror == viewpoint {
                     None
                 } else {
-                    search::opposite(reach.max(farthest), farthest, &mut |kernel| {
-                        seen_from_both([viewpoint, &mirror].map(|place| (place, kernel)))
+                    opposite(reach.max(farthest), farthest, &mut |kernel| {
+                        let here = (self.seen)(viewpoint, kernel)?;
+                        let there = (self.seen)(&mirror, kernel)?;
+                        Ok(here.iter().zip(&there).filter(|(a, b)| a != b).count())
                     })?
                 };
                 Ok(opposite.unwrap_or_else(|| from_radius(self.automatic, farthest)))
             }
             Radius::Absolute(_) | Radius::Exponent(_) => given(choice, farthest),
-            Radius::Auto | Radius::Search | Radius::Opposite => {
-                Ok(from_radius(self.automatic, farthest))
-            }
+            Radius::Auto | Radius::Opposite => Ok(from_radius(self.automatic, farthest)),
         }
     }
 }

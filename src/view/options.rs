@@ -2,8 +2,7 @@
 
 use crate::base::error::Error;
 use crate::cloud::noise::Surface;
-use crate::cloud::part::{Step, Steps};
-use crate::cloud::selection::Within;
+use crate::cloud::selection::{Region, Within};
 
 /// How the radius R of the flipping sphere is chosen.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -16,10 +15,6 @@ pub enum Radius {
     /// viewpoint, in which each point counts s² times, as the area for which it stands.
     #[default]
     Auto,
-    /// By antipodal search around the closed form of [`Radius::Auto`], with six hulls. A look
-    /// back along the same rays should show exactly the hidden points. The search takes the R
-    /// that comes nearest to this.
-    Search,
     /// By the paper's own rule (§4), with about 40 hulls. C′ is the mirror image of the
     /// viewpoint C in the cloud's centroid. The rule takes the R for which the most points are
     /// seen by exactly one of C and C′. If several R are equally good, it takes the smallest.
@@ -74,7 +69,7 @@ pub enum Exponential {
 /// use hidden_point_removal::{Inversion, Options};
 ///
 /// let options = Options::with_inversion(Inversion::Looks(3)).scores(true);
-/// assert!(options.scores && options.sample.is_none());
+/// assert!(options.scores && options.within.is_none());
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
@@ -84,39 +79,18 @@ pub struct Options {
     pub radius: Radius,
     /// How points are flipped.
     pub inversion: Inversion,
-    /// For noisy clouds. Before the view, each point is projected on the least-squares plane of
-    /// itself and its k nearest other points. Indices and the cloud's positions stay. Each
-    /// query computes this again; for several queries, ask
-    /// [`PointCloud::denoised`](crate::PointCloud::denoised) once.
-    pub denoise: Option<usize>,
-    /// For noisy clouds. A point counts as visible if, after the view, more than 0.4 of itself and
-    /// its k nearest other points are visible.
-    pub vote: Option<usize>,
     /// Whether the answer also holds scores, which show how sure it is:
     /// [`Visibility::scores`](crate::Visibility::scores). Scores need [`Inversion::Looks`] and a
     /// single viewpoint.
     pub scores: bool,
     /// With [`Inversion::Looks`]: how far behind the surface before it a point may lie and still be
     /// seen, in the cloud's units; at least 0. Without a number it follows from the cloud's noise
-    /// ([`PointCloud::noise`](crate::PointCloud::noise)), and even noise is removed before the view,
-    /// as with `denoise`. 0 stands for a surface without thickness.
+    /// ([`PointCloud::noise`](crate::PointCloud::noise)), and noise that is the same everywhere is
+    /// removed before the view. 0 stands for a surface without thickness.
     pub thickness: Option<f64>,
     /// With [`Inversion::Looks`]: what the cloud is. By default it is what
     /// [`PointCloud::surface`](crate::PointCloud::surface) finds; with a number as thickness, points do not move.
     pub surface: Option<Surface>,
-    /// Whether to give an early answer. It contains all visible points, with the same radius,
-    /// and some hidden points. Points that it leaves out are certainly hidden. It takes about
-    /// half of the time. With an [`Observer`](crate::Observer), the same view without `draft`
-    /// goes on from it. [`Radius::Search`] and [`Radius::Opposite`] allow no draft, because
-    /// their choice takes longer. There is also no draft where the whole hull is needed
-    /// ([`Error::Excludes`]).
-    pub draft: bool,
-    /// The number of distinct places that take part, as an even sample: equal points are all
-    /// sampled, or none of them. The answer is the same as that of a cloud of the sampled points
-    /// alone, with its own spacing and farthest distance. The sample depends on the set of points alone. A
-    /// smaller sample is part of a larger one. Each query chooses the sample again, unless the
-    /// cloud is [prepared](crate::PointCloud::prepare_for) for it.
-    pub sample: Option<usize>,
     /// Only these points take part: those near the viewpoint, or in a box. The answer is the same
     /// as that of a cloud of these points alone, with its own spacing and farthest distance. It is
     /// followed before all other options. Where there are several viewpoints or lights, each has
@@ -127,21 +101,14 @@ pub struct Options {
 }
 
 impl Options {
-    /// Whether the answer is the final one to its question.
-    pub(crate) fn is_exact(&self) -> bool {
-        !self.draft && self.sample.is_none()
-    }
-
     pub(crate) fn asks_for_looks(&self) -> bool {
         matches!(self.inversion, Inversion::Looks(_))
     }
 
-    /// These options for a cloud of the points that take part, at their places.
+    /// These options for a cloud of the points that take part.
     pub(crate) fn of_all(&self) -> Self {
         Self {
             within: None,
-            sample: None,
-            denoise: None,
             ..*self
         }
     }
@@ -151,30 +118,21 @@ impl Options {
         self.within.is_some_and(|within| within.distance.is_some())
     }
 
-    /// The steps to the points that take part in a view from `viewpoint`, and to their places.
-    /// Without a viewpoint, a distance does not count.
-    pub(crate) fn steps(&self, viewpoint: Option<[f64; 3]>) -> Result<Steps, Error> {
-        let region = match &self.within {
-            Some(within) => within.region(viewpoint)?,
-            None => None,
-        };
-        Ok([
-            region.map(Step::Within),
-            self.sample.map(Step::Sample),
-            self.denoise.map(Step::Denoise),
-        ])
+    /// Where the points are that take part in a view from `viewpoint`; `None` if that is everywhere. Without a
+    /// viewpoint, a distance does not count.
+    pub(crate) fn region(&self, viewpoint: Option<[f64; 3]>) -> Result<Option<Region>, Error> {
+        match &self.within {
+            Some(within) => within.region(viewpoint),
+            None => Ok(None),
+        }
     }
 
     const DEFAULT: Self = Self {
         radius: Radius::Auto,
         inversion: Inversion::Spherical,
-        denoise: None,
-        vote: None,
         scores: false,
         thickness: None,
         surface: None,
-        draft: false,
-        sample: None,
         within: None,
     };
 
@@ -208,20 +166,6 @@ impl Options {
         Self { inversion, ..self }
     }
 
-    /// These options with [`Options::denoise`], by a number or none.
-    #[must_use]
-    pub fn denoise(self, k: impl Into<Option<usize>>) -> Self {
-        let denoise = k.into();
-        Self { denoise, ..self }
-    }
-
-    /// These options with [`Options::vote`], by a number or none.
-    #[must_use]
-    pub fn vote(self, k: impl Into<Option<usize>>) -> Self {
-        let vote = k.into();
-        Self { vote, ..self }
-    }
-
     /// These options with or without [`Options::scores`].
     #[must_use]
     pub const fn scores(self, scores: bool) -> Self {
@@ -240,19 +184,6 @@ impl Options {
     pub fn surface(self, surface: impl Into<Option<Surface>>) -> Self {
         let surface = surface.into();
         Self { surface, ..self }
-    }
-
-    /// These options with or without [`Options::draft`].
-    #[must_use]
-    pub const fn draft(self, draft: bool) -> Self {
-        Self { draft, ..self }
-    }
-
-    /// These options with [`Options::sample`], by a number or none.
-    #[must_use]
-    pub fn sample(self, count: impl Into<Option<usize>>) -> Self {
-        let sample = count.into();
-        Self { sample, ..self }
     }
 
     /// These options with [`Options::within`], or without.

@@ -105,7 +105,7 @@ pub(crate) fn given(choice: Radius, farthest: f64) -> Result<ChosenRadius, Error
                 evaluations: 0,
             })
         }
-        Radius::Auto | Radius::Search | Radius::Opposite => Ok(from_radius(farthest, farthest)),
+        Radius::Auto | Radius::Opposite => Ok(from_radius(farthest, farthest)),
     }
 }
 

@@ -26,10 +26,6 @@ struct Feature {
     is_in: fn(&Options) -> bool,
 }
 
-const SEARCH: Feature = Feature {
-    name: "radius \"search\"",
-    is_in: |options| options.radius == Radius::Search,
-};
 const OPPOSITE: Feature = Feature {
     name: "radius \"opposite\"",
     is_in: |options| options.radius == Radius::Opposite,
@@ -70,14 +66,6 @@ const SURFACE: Feature = Feature {
     name: "surface",
     is_in: |options| options.surface.is_some(),
 };
-const DRAFT: Feature = Feature {
-    name: "draft",
-    is_in: |options| options.draft,
-};
-const SAMPLE: Feature = Feature {
-    name: "sample",
-    is_in: |options| options.sample.is_some(),
-};
 const WITHIN: Feature = Feature {
     name: "within",
     is_in: |options| options.within.is_some(),
@@ -86,26 +74,16 @@ const DISTANCE: Feature = Feature {
     name: "within distance",
     is_in: Options::has_distance,
 };
-const DENOISE: Feature = Feature {
-    name: "denoise",
-    is_in: |options| options.denoise.is_some(),
-};
-const VOTE: Feature = Feature {
-    name: "vote",
-    is_in: |options| options.vote.is_some(),
-};
 
 /// Each option with those that it excludes, for every question.
-const OPTIONS: [(Feature, &[Feature]); 9] = [
-    (LOOKS, &[SEARCH, OPPOSITE, RADIUS, EXPONENT, DRAFT]),
+const OPTIONS: [(Feature, &[Feature]); 7] = [
+    (LOOKS, &[OPPOSITE, RADIUS, EXPONENT]),
     (SCORES, &[ONE_HULL]),
     (THICKNESS, &[ONE_HULL]),
     (SURFACE, &[ONE_HULL]),
-    (SEARCH, &[POWER, EXPONENTIAL]),
     (OPPOSITE, &[POWER, EXPONENTIAL]),
     (RADIUS, &[EXPONENTIAL]),
     (EXPONENT, &[POWER, EXPONENTIAL]),
-    (DRAFT, &[SEARCH, OPPOSITE]),
 ];
 
 impl QuestionKind {
@@ -113,17 +91,16 @@ impl QuestionKind {
     fn excludes(self) -> (&'static str, &'static [Feature]) {
         match self {
             Self::View => ("a view", &[]),
-            Self::Map => ("visibilityMap", &[DRAFT, SCORES, VOTE, SEARCH, OPPOSITE]),
+            Self::Map => ("visibilityMap", &[SCORES, OPPOSITE]),
             Self::Several => ("several viewpoints", &[SCORES]),
-            Self::Direction => ("a direction", &[DISTANCE, POWER, SEARCH, OPPOSITE]),
-            Self::Sees => ("sees", &[DRAFT, SCORES]),
-            Self::Coverage => ("coverage", &[DRAFT, SCORES]),
-            Self::PlaceViewpoints => ("placeViewpoints", &[DRAFT, SCORES]),
-            Self::Panorama => ("panorama", &[DRAFT, SCORES]),
-            Self::Reconstruct => ("reconstruct", &[DRAFT, LOOKS]),
-            Self::Illuminate => ("illuminate", &[DRAFT, LOOKS]),
-            // The neighbors of a point in a part are not its neighbors in the cloud.
-            Self::Merge => ("merging", &[LOOKS, DENOISE, VOTE, DRAFT, SAMPLE, WITHIN]),
+            Self::Direction => ("a direction", &[DISTANCE, POWER, OPPOSITE]),
+            Self::Sees => ("sees", &[SCORES]),
+            Self::Coverage => ("coverage", &[SCORES]),
+            Self::PlaceViewpoints => ("placeViewpoints", &[SCORES]),
+            Self::Panorama => ("panorama", &[SCORES]),
+            Self::Reconstruct => ("reconstruct", &[LOOKS]),
+            Self::Illuminate => ("illuminate", &[LOOKS]),
+            Self::Merge => ("merging", &[LOOKS, WITHIN]),
         }
     }
 }
@@ -151,7 +128,7 @@ impl Options {
     /// Refuses options that a cloud of this dimension, at least 4, has not.
     #[cfg(feature = "higher")]
     pub(crate) fn check_dimension(&self, dimension: usize) -> Result<(), Error> {
-        let features = [DENOISE, VOTE, LOOKS, SCORES, DRAFT, SAMPLE, WITHIN];
+        let features = [LOOKS, SCORES, WITHIN];
         let refused = self.first_of(&features);
         refused.map_or(Ok(()), |option| Err(Error::Dimension { option, dimension }))
     }

@@ -29,9 +29,6 @@ pub(crate) struct View {
 impl PointCloud {
     /// Refuses options that are refused for every viewpoint. Queries without a viewpoint use it.
     pub(crate) fn check_options(&self, options: &Options) -> Result<(), Error> {
-        if let Some(k) = options.vote {
-            self.check_neighbors("vote", k)?;
-        }
         match looks(options)? {
             Some(_) => Ok(()),
             None => check_flip(options),

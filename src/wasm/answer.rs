@@ -3,28 +3,20 @@
 use wasm_bindgen::prelude::*;
 
 use crate::wasm::objects::{list, numbered, object};
-use crate::wasm::options::ViewOptions;
 use crate::wasm::transfer::{copy_out, copy_out_singles};
 use crate::{ChosenRadius, Error, Exponential, Inversion, Visibility};
 
 /// An answer with the triangles between its points, if it has any.
-pub(super) fn answer(
-    visibility: &Visibility,
-    triangles: &[u32],
-    options: &ViewOptions,
-) -> Result<JsValue, Error> {
+pub(super) fn answer(visibility: &Visibility, triangles: &[u32]) -> Result<JsValue, Error> {
     let mut scales = [0.0; 3];
     match visibility.inversion() {
         Inversion::Exponential(Exponential::Scale(scale)) => scales[0] = scale,
         _ => (scales.iter_mut().zip(visibility.looks())).for_each(|(to, from)| *to = *from),
     }
     Ok(object(&[
-        ("indices", &copy_out(visibility.indices(), options)?.into()),
-        ("triangles", &copy_out(triangles, options)?.into()),
-        (
-            "scores",
-            &copy_out_singles(visibility.scores(), options)?.into(),
-        ),
+        ("indices", &copy_out(visibility.indices())?.into()),
+        ("triangles", &copy_out(triangles)?.into()),
+        ("scores", &copy_out_singles(visibility.scores())?.into()),
         ("radius", &visibility.radius().into()),
         ("exponent", &visibility.exponent().into()),
         ("evaluations", &visibility.evaluations().into()),
@@ -35,11 +27,8 @@ pub(super) fn answer(
 }
 
 /// The answer to a query that was not refused.
-pub(super) fn answered(
-    visibility: Result<Visibility, JsValue>,
-    options: &ViewOptions,
-) -> Result<JsValue, JsValue> {
-    Ok(answer(&visibility?, &[], options)?)
+pub(super) fn answered(visibility: Result<Visibility, JsValue>) -> Result<JsValue, JsValue> {
+    Ok(answer(&visibility?, &[])?)
 }
 
 pub(super) fn chosen(chosen: Result<ChosenRadius, JsValue>) -> Result<JsValue, JsValue> {

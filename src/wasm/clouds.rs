@@ -94,9 +94,8 @@ pub(super) fn with_cloud<T>(
     })
 }
 
-/// Asks a cloud for a view, or the part of it that a mask leaves. The part, the sample and
-/// neighbors for noise handling are kept for the next view, where there is memory. `viewpoint`
-/// is the one viewpoint of the view, if there is one.
+/// Asks a cloud for a view, or the part of it that a mask leaves. The part is kept for the next view, where there is
+/// memory. `viewpoint` is the one viewpoint of the view, if there is one.
 #[cfg(feature = "wasm")]
 pub(super) fn with_view<T>(
     handle: u32,
@@ -152,9 +151,7 @@ fn prepare(
     options: &Options,
 ) -> Result<bool, JsValue> {
     let mask = choices.mask();
-    let numbers = options.denoise.or(options.vote).or(options.sample);
-    let is_chosen = mask.is_some() || options.within.is_some();
-    if !(is_chosen || numbers.is_some()) {
+    if mask.is_none() && options.within.is_none() {
         return Ok(false);
     }
     CLOUDS.with_borrow_mut(|clouds| match clouds.get_mut(handle as usize) {

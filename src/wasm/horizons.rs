@@ -19,14 +19,10 @@ pub fn create_horizon(x: f64, y: f64, z: f64, options: &ViewOptions) -> Result<J
 
 /// The indices of points that the horizon does not hide.
 #[wasm_bindgen]
-pub fn screen(
-    handle: u32,
-    positions: &Coordinates,
-    options: &ViewOptions,
-) -> Result<Uint32Array, JsValue> {
+pub fn screen(handle: u32, positions: &Coordinates) -> Result<Uint32Array, JsValue> {
     with_horizon(handle, |horizon| {
         let kept = horizon.not_hidden(points(positions)?.as_given())?;
-        copy_out(&kept, options)
+        copy_out(&kept)
     })
 }
 
@@ -40,8 +36,8 @@ pub fn hides_box(handle: u32, corners: &Float64Array) -> Result<bool, JsValue> {
 
 /// The points of the horizon that are visible among them: x, y, z of each.
 #[wasm_bindgen(js_name = horizonPoints)]
-pub fn horizon_points(handle: u32, options: &ViewOptions) -> Result<Float64Array, JsValue> {
+pub fn horizon_points(handle: u32) -> Result<Float64Array, JsValue> {
     with_horizon(handle, |horizon| {
-        copy_out_doubles(horizon.visible()?.as_flattened(), options)
+        copy_out_doubles(horizon.visible()?.as_flattened())
     })
 }

@@ -36,7 +36,7 @@ pub fn visibility_map(
         };
         let made = cloud.visibility_map_with(memory, [x, y, z], &view, &choices)?;
         Ok(object(&[
-            ("data", &copy_out_singles(made.data(), options)?.into()),
+            ("data", &copy_out_singles(made.data())?.into()),
             ("center", &list(&cloud.middle())),
             ("origin", &list(&made.origin())),
             ("numbers", &list(&made.numbers().map(f64::from))),

@@ -21,5 +21,5 @@ pub fn merge_visible(
     let (positions, ids) = (points(positions)?, copy_in_integers(ids)?);
     let part = |_| (positions.as_given(), Ids::Short(&ids));
     let seen = merge(1, &part, [x, y, z], &view)?;
-    Ok(copy_out(&seen, options)?)
+    Ok(copy_out(&seen)?)
 }

@@ -11,7 +11,6 @@
 mod answer;
 #[cfg(feature = "wasm")]
 mod beats;
-mod cloud_options;
 mod clouds;
 mod failure;
 #[cfg(feature = "wasm")]
@@ -25,14 +24,13 @@ mod maps;
 #[cfg(feature = "wasm")]
 mod merges;
 mod objects;
+mod operator;
 mod options;
 #[cfg(feature = "wasm")]
 mod outputs;
 #[cfg(feature = "wasm")]
 mod panoramas;
-mod space;
 mod transfer;
-mod view;
 #[cfg(feature = "wasm")]
 mod views;
 
@@ -59,11 +57,18 @@ interface CloudOptions { skipNonFinite: boolean; progress?: ((share: number) => 
 interface CloudSize { length: number; skipped: number; spacing: number }
 interface CloudInfo extends CloudSize { handle: number }
 interface ViewOptions {
-  /** As coreNumbers of view-options.ts lists them. */
-  numbers: Float64Array;
+  /** 0 the automatic radius, 1 the paper's rule, 2 `size` is R, 3 `size` is the exponent. */
+  rule: number;
+  size: number;
+  /** 0 spherical, 1 `parameter` is the power, 2 exponential, 3 `parameter` is its scale, 4 `parameter` is the number of looks. */
+  kernel: number;
+  parameter: number;
+  scores: boolean;
+  /** Negative: automatic. */
+  thickness: number;
+  /** A distance, the lowest x, y, z and the highest ones; infinite where there is no limit. */
+  within: Float64Array;
   mask?: Uint8Array | undefined;
-  /** Makes room for so many indices of an answer. */
-  memory: (length: number) => Uint32Array<ArrayBuffer>;
 }
 interface ChosenRadius { radius: number; exponent: number; evaluations: number }
 interface Answer extends ChosenRadius {

@@ -23,11 +23,7 @@ pub fn reconstruct(
     let mesh = with_view(handle, Some([x, y, z]), options, &view, |cloud| {
         cloud.reconstruct([x, y, z], &view, max_edge)
     })?;
-    Ok(answer(
-        &mesh.visibility,
-        mesh.triangles.as_flattened(),
-        options,
-    )?)
+    Ok(answer(&mesh.visibility, mesh.triangles.as_flattened())?)
 }
 
 /// Writes the brightness of every index into `target`, which has the length of the cloud.

@@ -10,7 +10,6 @@ use wasm_bindgen::prelude::*;
 use crate::Error;
 use crate::base::allocation::filled;
 use crate::cloud::points::Points;
-use crate::wasm::options::ViewOptions;
 
 #[wasm_bindgen]
 extern "C" {
@@ -19,6 +18,12 @@ extern "C" {
     pub type Coordinates;
     #[wasm_bindgen(method, getter, js_name = BYTES_PER_ELEMENT)]
     fn bytes_of_each(this: &Coordinates) -> u32;
+
+    /// Memory outside of the wasm, which may be refused.
+    #[wasm_bindgen(js_name = ArrayBuffer)]
+    type Room;
+    #[wasm_bindgen(constructor, catch, js_class = "ArrayBuffer")]
+    fn new(length: f64) -> Result<Room, JsValue>;
 }
 
 #[inline(never)]
@@ -76,40 +81,27 @@ fn zeros<T: Copy + Default>(count: u32) -> Result<Vec<T>, Error> {
     Ok(zeros)
 }
 
-/// A copy for the caller: a view of the wasm's memory dies when that memory grows.
-#[inline(never)]
-pub(super) fn copy_out(indices: &[u32], options: &ViewOptions) -> Result<Uint32Array, Error> {
-    let copy = options
-        .memory(indices.len() as u32)
-        .map_err(|_| Error::OutOfMemory)?;
+/// Copies for the caller: a view of the wasm's memory dies when that memory grows.
+pub(super) fn copy_out(indices: &[u32]) -> Result<Uint32Array, Error> {
+    let copy = Uint32Array::new(&room(size_of_val(indices))?);
     copy.copy_from(indices);
     Ok(copy)
 }
 
-/// The same for numbers in single precision.
-#[inline(never)]
-pub(super) fn copy_out_singles(
-    numbers: &[f32],
-    options: &ViewOptions,
-) -> Result<Float32Array, Error> {
-    let room = options
-        .memory(numbers.len() as u32)
-        .map_err(|_| Error::OutOfMemory)?;
-    let copy = Float32Array::new(&room.buffer());
+pub(super) fn copy_out_singles(numbers: &[f32]) -> Result<Float32Array, Error> {
+    let copy = Float32Array::new(&room(size_of_val(numbers))?);
     copy.copy_from(numbers);
     Ok(copy)
 }
 
-/// The same for numbers in double precision.
 #[cfg(feature = "wasm")]
-pub(super) fn copy_out_doubles(
-    numbers: &[f64],
-    options: &ViewOptions,
-) -> Result<Float64Array, Error> {
-    let room = options
-        .memory(2 * numbers.len() as u32)
-        .map_err(|_| Error::OutOfMemory)?;
-    let copy = Float64Array::new(&room.buffer());
+pub(super) fn copy_out_doubles(numbers: &[f64]) -> Result<Float64Array, Error> {
+    let copy = Float64Array::new(&room(size_of_val(numbers))?);
     copy.copy_from(numbers);
     Ok(copy)
+}
+
+fn room(bytes: usize) -> Result<JsValue, Error> {
+    let room = Room::new(bytes as f64).map_err(|_| Error::OutOfMemory)?;
+    Ok(room.into())
 }

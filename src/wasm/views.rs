@@ -1,19 +1,18 @@
-//! Views divided among workers, from several viewpoints, along a direction and through a camera.
+//! Views in slices, from several viewpoints, along a direction and through a camera.
 
 use js_sys::{Float32Array, Float64Array, Uint8Array, Uint32Array};
 use wasm_bindgen::prelude::*;
 
+use crate::Camera;
 use crate::cloud::points::Given;
 use crate::wasm::answer::answered;
 use crate::wasm::clouds::{is_hyper, with_cloud, with_hyper, with_memory, with_view};
 use crate::wasm::higher::seen_from_several;
 use crate::wasm::options::ViewOptions;
 use crate::wasm::transfer::{copy_in_integers, triples};
-use crate::wasm::view::seen;
-use crate::{Camera, Sector};
 
-/// Goes on from the draft of a view, if the last view was that draft, with about `budget` points.
-/// Returns whether `visibleFrom` would have no point left to add.
+/// Does a part of the work of `visibleFrom`, which goes on from there: about `budget` points. Returns whether little more
+/// than the answer is left.
 #[wasm_bindgen(js_name = goOn)]
 pub fn go_on(
     handle: u32,
@@ -30,21 +29,6 @@ pub fn go_on(
     with_memory(handle, [x, y, z], options, &view, |cloud, memory| {
         cloud.go_on_with(memory, [x, y, z], &view, budget as usize)
     })
-}
-
-/// Which points of sector `number` of `count` are visible from (x, y, z)?
-#[wasm_bindgen(js_name = visibleInSector, unchecked_return_type = "Answer")]
-pub fn visible_in_sector(
-    handle: u32,
-    x: f64,
-    y: f64,
-    z: f64,
-    options: &ViewOptions,
-    number: u32,
-    count: u32,
-) -> Result<JsValue, JsValue> {
-    let sector = Sector::new(number, count).unwrap_or(Sector::WHOLE);
-    seen(handle, [x, y, z], options, sector)
 }
 
 /// Writes into `target` where a camera shows points: x, y and the depth of each, and the direction of length 1 to
@@ -121,7 +105,7 @@ pub fn visible_from_several(
         let seen = with_hyper(handle, |cloud| {
             seen_from_several(cloud, viewpoints, k as usize, &view)
         });
-        return answered(seen, options);
+        return answered(seen);
     }
     let seen = with_view(handle, None, options, &view, |cloud| {
         let viewpoints = triples(viewpoints)?;
@@ -132,7 +116,7 @@ pub fn visible_from_several(
             cloud.visible_from_at_least(k as usize, &viewpoints, &view)
         }
     });
-    answered(seen, options)
+    answered(seen)
 }
 
 /// Which points are visible along (x, y, z) from infinitely far away?
@@ -148,5 +132,5 @@ pub fn visible_from_direction(
     let seen = with_view(handle, None, options, &view, |cloud| {
         cloud.visible_from_direction([x, y, z], &view)
     });
-    answered(seen, options)
+    answered(seen)
 }

@@ -3,27 +3,21 @@
 //! FILE holds raw little-endian x y z. Each line of TASKS is a question with one exponent,
 //! `EXPONENT RUNS x y z`. The answer to each line is one line of JSON, the `Outcome` of measure.ts.
 //! That file explains the measurements.
-//!
-//! `bench_native FILE f32|f64 sectors < TASKS` times divided views instead. It asks one sector after
-//! another, each with a memory of its own that earlier views have reserved. The answer to each line
-//! is the `Divided` of sectors.ts.
 
 use std::io::{BufRead, stdin};
 use std::time::Instant;
 
-use hidden_point_removal::{Options, PointCloud, Position, Sector, Visibility};
+use hidden_point_removal::{Options, PointCloud, Position, Visibility};
 
 fn main() {
     let args: Vec<String> = std::env::args().skip(1).collect();
-    let (file, precision, divided) = match args.as_slice() {
-        [file, precision] => (file, precision, false),
-        [file, precision, what] if what == "sectors" => (file, precision, true),
-        _ => panic!("usage: bench_native FILE f32|f64 [sectors] < TASKS"),
+    let [file, precision] = args.as_slice() else {
+        panic!("usage: bench_native FILE f32|f64 < TASKS");
     };
     let bytes = std::fs::read(file).expect("FILE can be read");
     match precision.as_str() {
-        "f32" => answer_all(&points(&bytes, f32::from_le_bytes), divided),
-        "f64" => answer_all(&points(&bytes, f64::from_le_bytes), divided),
+        "f32" => answer_all(&points(&bytes, f32::from_le_bytes)),
+        "f64" => answer_all(&points(&bytes, f64::from_le_bytes)),
         _ => panic!("the precision is f32 or f64"),
     }
 }
@@ -36,43 +30,11 @@ fn points<T: Copy, const SIZE: usize>(bytes: &[u8], read: fn([u8; SIZE]) -> T) -
         .collect()
 }
 
-fn answer_all<P: Position>(positions: &[P], divided: bool) {
-    let answer = if divided { divided_outcome } else { outcome };
+fn answer_all<P: Position>(positions: &[P]) {
     for line in stdin().lock().lines() {
         let line = line.expect("TASKS can be read");
-        println!("{}", answer(positions, &line));
+        println!("{}", outcome(positions, &line));
     }
-}
-
-/// The least milliseconds of the whole view and of each sector.
-fn divided_outcome<P: Position>(positions: &[P], line: &str) -> String {
-    let numbers = numbers(line);
-    let [exponent, runs, x, y, z] = numbers[..] else {
-        panic!("a task is EXPONENT RUNS x y z");
-    };
-    let options = Options::with_exponent(exponent);
-    let cloud = PointCloud::new(positions).expect("a valid cloud");
-    let least = |number, count| {
-        let sector = Sector::new(number, count).expect("a number below the count");
-        let mut observer = cloud.observer();
-        let mut ask = || {
-            observer.forget();
-            timed(|| observer.visible_in_sector([x, y, z], &options, sector))
-        };
-        ask().0.expect("a valid view"); // Not counted.
-        (0..runs as usize)
-            .map(|_| ask().1)
-            .fold(f64::INFINITY, f64::min)
-    };
-    let divided = [2, 4, 8].map(|count| {
-        let times: Vec<f64> = (0..count).map(|number| least(number, count)).collect();
-        format!("{times:?}")
-    });
-    format!(
-        r#"{{"whole":{:?},"sectors":[{}]}}"#,
-        least(0, 1),
-        divided.join(",")
-    )
 }
 
 fn outcome<P: Position>(positions: &[P], line: &str) -> String {

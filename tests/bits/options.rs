@@ -28,11 +28,3 @@ pub fn exponential_of(subject: &Subject) -> Options {
 pub fn looks(count: usize) -> Options {
     with_kernel(Inversion::Looks(count)).scores(true)
 }
-
-pub fn denoise() -> Options {
-    Options::default().denoise(9)
-}
-
-pub fn vote() -> Options {
-    Options::default().vote(7)
-}

@@ -1,13 +1,13 @@
 //! All questions that a cloud can be asked.
 
 use hidden_point_removal::{
-    Inversion, Lighting, NonFinite, Options, PointCloud, Radius, Sector, Visibility, merge_visible,
+    Inversion, Lighting, NonFinite, Options, PointCloud, Radius, Visibility, merge_visible,
     permissible_curvature, radius_bound, ring_of_viewpoints,
 };
 
 use super::answer::{Answer, Collector};
 use super::clouds::Subject;
-use super::options::{denoise, exponential, exponential_of, looks, vote, with_kernel, with_rule};
+use super::options::{exponential, exponential_of, looks, with_kernel, with_rule};
 use super::rng::Rng;
 use super::scenes::Scene;
 
@@ -17,7 +17,6 @@ const DIRECTION: [f64; 3] = [0.3, -0.7, 0.2];
 
 pub const QUESTIONS: &[Question] = &[
     ("auto", |s| view(s, &Options::default())),
-    ("search", |s| view(s, &with_rule(Radius::Search))),
     ("opposite", |s| view(s, &with_rule(Radius::Opposite))),
     ("exponent_0", |s| view(s, &Options::with_exponent(0.0))),
     ("exponent_1.7", |s| view(s, &Options::with_exponent(1.7))),
@@ -32,14 +31,11 @@ pub const QUESTIONS: &[Question] = &[
     ("exponential_given", |s| view(s, &exponential_of(s))),
     ("looks_2", |s| view(s, &looks(2))),
     ("looks_3", |s| view(s, &looks(3))),
-    ("denoise", |s| view(s, &denoise())),
-    ("vote", |s| view(s, &vote())),
     ("direction", |s| along(s, &Options::default())),
     ("direction_exponential", |s| along(s, &exponential())),
     ("single_precision", single_precision),
     ("any", |s| of_ring(s, 1)),
     ("at_least_2", |s| of_ring(s, 2)),
-    ("sectors", |s| sectors(s, &[1, 2, 3, 7, 64])),
     ("merge", merge),
     ("walk", walk),
     ("changed", changed),
@@ -59,7 +55,6 @@ pub const LARGE: &[Question] = &[
     ("looks_3", |s| view(s, &looks(3))),
     ("direction", |s| along(s, &Options::default())),
     ("single_precision", single_precision),
-    ("sectors", |s| sectors(s, &[2, 5])),
     ("merge", merge),
     ("walk", walk),
     ("changed", changed),
@@ -103,23 +98,6 @@ fn of_ring(subject: &Subject, k: usize) -> Answer {
         &ring,
         &Options::default(),
     )))
-}
-
-fn sectors(subject: &Subject, counts: &[u32]) -> Answer {
-    let mut answer = Collector::new();
-    let options = Options::with_exponent(2.0);
-    for &count in counts {
-        for number in 0..count {
-            let sector = Sector::new(number, count).expect("a number below the count");
-            let cloud = &subject.cloud;
-            answer.view(&expected(cloud.visible_in_sector(
-                subject.viewpoint,
-                &options,
-                sector,
-            )));
-        }
-    }
-    answer.finish()
 }
 
 /// Three parts of the cloud. One point in eight is in two parts.
@@ -219,7 +197,7 @@ fn plane(subject: &Subject) -> Answer {
     let points: Vec<_> = subject.points.iter().map(|&p| flat(p)).collect();
     let cloud = expected(PointCloud::new(&points));
     let mut answer = Collector::new();
-    for options in [Options::default(), with_rule(Radius::Search), exponential()] {
+    for options in [Options::default(), exponential()] {
         answer.view(&expected(
             cloud.visible_from(flat(subject.viewpoint), &options),
         ));

@@ -285,10 +285,7 @@ fn cameras_stand_where_viewpoints_stand() {
         distance: Some(2.0),
         bounds: None,
     });
-    for options in [
-        Options::default(),
-        Options::default().denoise(5).within(within),
-    ] {
+    for options in [Options::default(), Options::default().within(within)] {
         let whole = |seat: &Seat| {
             cloud
                 .visible_from(seat.position(), &options)

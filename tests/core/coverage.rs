@@ -68,7 +68,7 @@ fn questions_that_make_no_sense_are_refused() {
         refused("option", "", found);
     }
     let scores = Options::with_inversion(Inversion::Looks(2)).scores(true);
-    for options in [usual.draft(true), scores, Options::with_exponent(-1.0)] {
+    for options in [scores, Options::with_exponent(-1.0)] {
         refused("option", "", cloud.coverage(&NOWHERE, &options));
         refused("option", "", cloud.coverage(&candidates, &options));
     }

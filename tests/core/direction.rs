@@ -150,7 +150,6 @@ fn what_does_not_fit_is_refused() {
     }
     let by = |radius| Options::default().radius(radius);
     for (code, words, options) in [
-        ("option", "cannot be combined", by(Radius::Search)),
         ("option", "cannot be combined", by(Radius::Opposite)),
         (
             "option",

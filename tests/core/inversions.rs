@@ -78,7 +78,6 @@ fn what_does_not_fit_is_refused() {
     for inversion in [Inversion::Power(2.0), AUTOMATIC] {
         let with = |radius| ask(Options::with_inversion(inversion).radius(radius));
         refused("option", "exponent", with(Radius::Exponent(2.0)));
-        refused("option", "search", with(Radius::Search));
         refused("option", "opposite", with(Radius::Opposite));
     }
     let automatic = Options::with_inversion(AUTOMATIC);

@@ -34,12 +34,6 @@ fn bits(answer: &Visibility) -> Vec<u32> {
     scores.map(|score| score.to_bits()).collect()
 }
 
-#[track_caller]
-fn assert_same(title: &str, after: &Visibility, before: &Visibility) {
-    assert_eq!(after, before, "{title}");
-    assert_eq!(bits(after), bits(before), "{title}");
-}
-
 #[test]
 fn an_answer_tells_its_looks_and_no_radius() {
     let points: Vec<[f64; 3]> = (0..50)
@@ -275,28 +269,6 @@ fn skipped_and_removed_points_have_no_score() {
 }
 
 #[test]
-fn noise_options_go_with_looks_and_scores_are_those_before_the_vote() {
-    let (mut points, _) = plate_before_wall();
-    let mut rng = Rng::new(9);
-    points
-        .iter_mut()
-        .for_each(|p| p[2] += rng.between(-0.02, 0.02));
-    let cloud = PointCloud::new(&points).unwrap();
-    let denoised = cloud.denoised(12).unwrap();
-    let options = |denoise, vote| looks(3).denoise(denoise).vote(vote);
-    let both = cloud
-        .visible_from(FRONT, &options(Some(12), Some(8)))
-        .unwrap();
-    let vote = denoised
-        .visible_from(FRONT, &options(None, Some(8)))
-        .unwrap();
-    assert_same("", &both, &vote);
-    let plain = denoised.visible_from(FRONT, &looks(3)).unwrap();
-    assert_eq!(bits(&vote), bits(&plain));
-    assert_ne!(vote.indices(), plain.indices());
-}
-
-#[test]
 fn what_needs_one_hull_refuses_looks() {
     let points = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
     let cloud = PointCloud::new(&points).unwrap();
@@ -312,7 +284,7 @@ fn what_needs_one_hull_refuses_looks() {
     let merged = merge_visible(&[(&points[..], &[0, 1, 2][..])], FRONT, &options);
     refused("option", &with("merging"), merged);
     for (radius, name) in [
-        (Radius::Search, "radius \"search\""),
+        (Radius::Opposite, "radius \"opposite\""),
         (Radius::Absolute(9.0), "radius"),
         (Radius::Exponent(2.0), "exponent"),
     ] {

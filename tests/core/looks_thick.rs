@@ -328,7 +328,7 @@ fn the_automatic_radius_is_larger_for_measured_surfaces() {
     points.extend((0..160).map(|_| rng.direction().map(|x| 1.5 * x)));
     let share = radius(&points) / many;
     assert!((0.8..1.25).contains(&share), "{share}");
-    // The answer, a direction and a search use it, too.
+    // The answer and a direction use it, too.
     let cloud = PointCloud::new(&sphere(8000, 0.03)).unwrap();
     let seen = cloud.visible_from(viewpoint, &Options::default()).unwrap();
     assert_eq!(seen.radius(), many);

@@ -175,25 +175,6 @@ fn triangles_face_the_viewer_and_cover_what_it_sees() {
 }
 
 #[test]
-fn denoised_and_voted_views_are_reconstructed() {
-    let points = shapes::bumpy(&mut Rng::new(43), 800);
-    let cloud = PointCloud::new(&points).unwrap();
-    let options = Options::default().denoise(8).vote(6);
-    let mesh = cloud.reconstruct(FRONT, &options, Some(0.2)).unwrap();
-    assert_eq!(
-        mesh.visibility,
-        cloud.visible_from(FRONT, &options).unwrap()
-    );
-    let mask = mesh.visibility.mask();
-    assert!(!mesh.triangles.is_empty());
-    for t in &mesh.triangles {
-        let [a, b, c] = t.map(|i| points[i as usize]);
-        assert!(distance(a, b).max(distance(b, c)).max(distance(c, a)) <= 0.2);
-        assert!(t.iter().all(|&i| mask[i as usize] == 1));
-    }
-}
-
-#[test]
 fn flat_and_empty_views_have_no_triangles() {
     for points in [
         &[][..],

@@ -31,7 +31,7 @@ macro_rules! short {
 short! {
     oracle 6_000;
     sectors 300;
-    drafts 15;
+    slices 15;
     boxes 20;
     dimensions 150;
     camera 100;
@@ -39,7 +39,6 @@ short! {
     within 100;
     coverage 60;
     invariance 300;
-    parts 100;
     maps 8;
     threads 20;
 }

@@ -1,35 +1,9 @@
 //! Tests for faults that all other tests missed. These gaps were found by changing the code in
 //! one place at a time, and by listing the lines that no test reaches.
 
-use hidden_point_removal::{Error, MAX_POINTS, Options, PointCloud, PointCloudNd};
+use hidden_point_removal::{Error, MAX_POINTS, PointCloud, PointCloudNd};
 
-use crate::common::rng::Rng;
-use crate::common::{ask, shapes};
 use crate::test;
-
-/// Five points that all vote on each other. Two or three of them are visible: the nearest point on
-/// the ray along x, and the points on rays of their own. More than two fifths must be visible.
-#[test]
-fn two_of_five_votes_are_not_enough() {
-    let options = Options::default().vote(4);
-    let [a, b, c, d] = [1.0, 2.0, 3.0, 4.0].map(|x| [x, 0.0, 0.0]);
-    let (e, f) = ([0.0, 1.0, 0.0], [0.0, 0.0, 1.0]);
-    let two = ask(&[a, b, c, d, e], [0.0; 3], &options);
-    assert_eq!(two.count(), 0);
-    let three = ask(&[a, b, c, e, f], [0.0; 3], &options);
-    assert_eq!(three.indices(), [0, 1, 2, 3, 4]);
-}
-
-#[test]
-fn a_cloud_that_is_prepared_twice_answers_alike() {
-    let points = shapes::bumpy(&mut Rng::new(3), 600);
-    let options = Options::default().denoise(8);
-    let mut cloud = PointCloud::new(&points).unwrap();
-    cloud.prepare_for(&options).unwrap();
-    cloud.prepare_for(&options).unwrap();
-    let view = cloud.visible_from([0.0, 0.5, 3.0], &options).unwrap();
-    assert_eq!(view, ask(&points, [0.0, 0.5, 3.0], &options));
-}
 
 /// Three neighbors at the distances 3, 4 and 5.
 #[test]

@@ -1,10 +1,10 @@
 //! Clouds that lie in one plane or line with the viewpoint, except for rounding. Every sign
 //! is in doubt, and the hull is a sliver.
 
-use hidden_point_removal::{Options, PointCloud, Sector};
+use hidden_point_removal::{Options, PointCloud};
 
 use crate::common::rng::Rng;
-use crate::common::{indices_of, proved};
+use crate::common::{indices_of, proved, sectors};
 use crate::test;
 
 const START: [f64; 3] = [0.3, -0.7, 1.1];
@@ -88,21 +88,13 @@ fn a_few_points_off_the_plane_are_no_exception() {
 }
 
 #[test]
-fn sectors_of_thin_clouds_are_the_whole() {
+fn thin_clouds_shared_by_threads_are_the_whole() {
     for (name, shape) in SHAPES {
         let cloud = PointCloud::new(&cloud(shape, 4, 300)).unwrap();
-        let options = Options::with_exponent(2.0);
         for viewpoint in viewpoints() {
-            let whole = cloud.visible_from(viewpoint, &options).unwrap();
-            let mut parts: Vec<u32> = (0..3)
-                .filter_map(|number| Sector::new(number, 3))
-                .flat_map(|sector| {
-                    let part = cloud.visible_in_sector(viewpoint, &options, sector);
-                    part.unwrap().into_indices()
-                })
-                .collect();
-            parts.sort_unstable();
-            assert_eq!(parts, whole.indices(), "{name} from {viewpoint:?}");
+            let options = Options::with_exponent(2.0);
+            let compared = sectors::compare(&cloud, viewpoint, &options, 3);
+            assert_eq!(compared, Ok(()), "{name} from {viewpoint:?}");
         }
     }
 }

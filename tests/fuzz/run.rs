@@ -109,7 +109,7 @@ fn options_literal(options: &Options) -> String {
         other => format!("{other:?}"),
     };
     format!(
-        "Options::with_inversion(Inversion::{inversion}).radius(Radius::{:?}).vote({:?})",
-        options.radius, options.vote
+        "Options::with_inversion(Inversion::{inversion}).radius(Radius::{:?})",
+        options.radius
     )
 }

@@ -107,8 +107,6 @@ pub(crate) struct Series {
     part: Part,
     /// The number of the next look; `count` after the last one, and more when all is done.
     next: usize,
-    /// Whether the hull of the first look was begun.
-    is_begun: bool,
     /// Whether all points are in one plane with the viewpoint.
     is_flat: bool,
 }
@@ -143,7 +141,6 @@ impl Series {
             farthest,
             part: Part::All,
             next: 0,
-            is_begun: false,
             is_flat: false,
         })
     }
@@ -211,11 +208,7 @@ impl Series {
         let kernel = self.tuning.kernel(look.scale, self.farthest);
         let flip = Flip::new(viewpoint, kernel).rescaled_for(own);
         if self.next == 0 && budget < usize::MAX {
-            let is_begun = core::mem::replace(&mut self.is_begun, true);
-            if !is_begun {
-                hull::mark_draft(own, blocks, &flip, memory)?;
-            }
-            if !is_begun || !hull::go_on(own, blocks, &flip, memory, budget)? {
+            if !hull::go_on(own, blocks, &flip, memory, budget)? {
                 return Ok(Outcome::Begun);
             }
         }
@@ -239,7 +232,7 @@ impl Series {
         };
         let lifted = |index: u32| lift.apply(own.get(index as usize));
         let verdicts = &mut self.verdicts;
-        match hull::lower_boundary(own.len() as u32, &lifted, false)? {
+        match hull::lower_boundary(own.len() as u32, &lifted)? {
             (_, Some(mut faces)) => verdicts.after(&look, Ok(&mut faces), &self.part, points),
             (visible, None) => verdicts.after(&look, Err(&visible), &self.part, points),
         }

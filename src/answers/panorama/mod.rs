@@ -75,7 +75,7 @@ impl PointCloud {
     /// ```
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] and [`Error::Direction`] for `panorama`; [`Error::Excludes`] for `draft` and
+    /// [`Error::OutOfRange`] and [`Error::Direction`] for `panorama`; [`Error::Excludes`] for
     /// `scores`; otherwise as [`PointCloud::visible_from`].
     pub fn panorama(
         &self,
@@ -98,7 +98,7 @@ impl PointCloud {
         options.check(QuestionKind::Panorama)?;
         let image = panorama.image()?;
         let part = self.part(Some(viewpoint), options)?;
-        memory.see(options.steps(Some(viewpoint))?);
+        memory.see(options.region(Some(viewpoint))?);
         let seen = part.seen_by(1, memory, viewpoint, options)?;
         let mut is_hidden = filled(part.len(), true)?;
         for &index in seen.indices() {

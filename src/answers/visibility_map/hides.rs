@@ -42,18 +42,18 @@ pub struct VisibilityMap {
 }
 
 impl VisibilityMap {
-    /// A map that hides nothing. Points may be `moved` so far.
-    pub(super) fn empty(viewpoint: [f64; 3], origin: [f64; 3], moved: f64) -> Self {
+    /// A map that hides nothing.
+    pub(super) fn empty(viewpoint: [f64; 3], origin: [f64; 3]) -> Self {
         let local = core::array::from_fn(|axis| (viewpoint[axis] - origin[axis]) as f32);
         let mut map = Self {
             viewpoint,
             origin,
             local,
-            error: moved,
+            error: 0.0,
             numbers: [0.0; 4],
             data: Vec::new(),
         };
-        map.error += map.distance_of_origin() * UNIT * 1.01 + 1e-36;
+        map.error = map.distance_of_origin() * UNIT * 1.01 + 1e-36;
         map
     }
 

@@ -17,8 +17,7 @@ mod surface;
 use crate::answers::looks::{Depth, look_of_map, looked_at};
 use crate::answers::memory::ViewMemory;
 use crate::base::error::Error;
-use crate::base::real::{larger, square_root};
-use crate::cloud::neighbors::distance_squared;
+use crate::base::real::square_root;
 use crate::cloud::point_cloud::PointCloud;
 use crate::cloud::points::Points;
 use crate::cloud::spatial::Bounds;
@@ -41,15 +40,6 @@ const ONE_IN_LOOKS: f64 = 2.0;
 /// The most corners for each point of a map, of which there are at least `FEW`.
 const CORNERS: usize = 5;
 
-/// What a map is asked about. Points may have been `moved` so far.
-struct Asked<'a> {
-    viewpoint: [f64; 3],
-    options: &'a Options,
-    map: &'a MapOptions,
-    origin: [f64; 3],
-    moved: f64,
-}
-
 impl PointCloud {
     /// A map that shows which points are certainly hidden from `viewpoint`: cheap to make, and
     /// cheap to ask for any number of points.
@@ -60,8 +50,8 @@ impl PointCloud {
     /// [`Observer`](crate::Observer) makes further maps faster.
     ///
     /// # Errors
-    /// As [`PointCloud::visible_from`]; [`Error::Excludes`] for `draft`, `scores`, `vote` and a
-    /// radius that is searched; [`Error::OutOfRange`] and [`Error::Direction`] for `map`.
+    /// As [`PointCloud::visible_from`]; [`Error::Excludes`] for `scores` and
+    /// [`Radius::Opposite`](crate::Radius::Opposite); [`Error::OutOfRange`] and [`Error::Direction`] for `map`.
     pub fn visibility_map(
         &self,
         viewpoint: [f64; 3],
@@ -82,33 +72,22 @@ impl PointCloud {
         options.check(QuestionKind::Map)?;
         map.check()?;
         let part = self.part(Some(viewpoint), options)?;
-        memory.see(options.steps(Some(viewpoint))?);
+        memory.see(options.region(Some(viewpoint))?);
         let origin = map.origin.unwrap_or(match part.sequence.points {
             Points::Single(_) => [0.0; 3],
             Points::Double(_) => self.middle(),
         });
-        let mut moved = 0.0;
-        if options.denoise.is_some() {
-            moved = displacement(&*self.chosen(Some(viewpoint), options)?, &part)?;
-        }
-        let asked = Asked {
-            viewpoint,
-            options,
-            map,
-            origin,
-            moved,
-        };
-        part.mapped(memory, &asked)
+        part.mapped(memory, viewpoint, options, map, origin)
     }
 
-    fn mapped(&self, memory: &mut ViewMemory, asked: &Asked) -> Result<VisibilityMap, Error> {
-        let &Asked {
-            viewpoint,
-            options,
-            map,
-            origin,
-            moved,
-        } = asked;
+    fn mapped(
+        &self,
+        memory: &mut ViewMemory,
+        viewpoint: [f64; 3],
+        options: &Options,
+        map: &MapOptions,
+        origin: [f64; 3],
+    ) -> Result<VisibilityMap, Error> {
         let is_look = looks(options)?.is_some();
         let mut survey = None;
         if is_look {
@@ -138,7 +117,7 @@ impl PointCloud {
             }
             Some(view) => (view.flip, Depth::default(), view.farthest),
         };
-        let mut made = VisibilityMap::empty(viewpoint, origin, moved);
+        let mut made = VisibilityMap::empty(viewpoint, origin);
         let reach = farthest + made.distance_of_origin();
         if !UNITS.contains(&farthest) || reach > UNITS.end {
             return Ok(made);
@@ -169,17 +148,4 @@ impl PointCloud {
             if middle.is_finite() { middle } else { 0.0 }
         })
     }
-}
-
-/// How far a point of `part` is at most from its place in `chosen`.
-fn displacement(chosen: &PointCloud, part: &PointCloud) -> Result<f64, Error> {
-    let places = chosen.places()?;
-    let mut most = 0.0;
-    for (place, point) in part.sequence.points.iter().enumerate() {
-        for &index in part.sequence.indices_of(place) {
-            let before = chosen.sequence.points.get(places[index as usize] as usize);
-            most = larger(most, distance_squared(before, point));
-        }
-    }
-    Ok(square_root(most) * (1.0 + 1e-12))
 }

@@ -7,7 +7,6 @@
 use alloc::vec::Vec;
 use glam::DVec3;
 
-use crate::answers::sample::even_places;
 use crate::answers::visibility_map::options::MapOptions;
 use crate::base::allocation::{OutOfMemory, filled, push, with_capacity};
 use crate::base::real::{larger, sine_cosine, smaller, square_root};
@@ -267,5 +266,33 @@ impl Cone {
 
     pub(super) fn contains(&self, v: DVec3) -> bool {
         v.dot(self.axis) >= self.cosine * square_root(v.dot(v))
+    }
+}
+
+/// The first `count` places below `all` in bit-reversed order. They are returned ascending.
+/// Every beginning of the bit-reversed order is spread evenly.
+fn even_places(all: usize, count: usize) -> Result<Vec<u32>, OutOfMemory> {
+    let unused = (all as u32).saturating_sub(1).leading_zeros();
+    let mut is_chosen: Vec<bool> = filled(all, false)?;
+    let order = (0..u32::MAX).map(|number| number.reverse_bits().checked_shr(unused).unwrap_or(0));
+    for place in order.filter(|&place| (place as usize) < all).take(count) {
+        is_chosen[place as usize] = true;
+    }
+    let mut places = with_capacity(count)?;
+    places.extend((0..all as u32).filter(|&place| is_chosen[place as usize]));
+    Ok(places)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::even_places;
+
+    #[test]
+    fn samples_are_even() {
+        let places = even_places(100_000, 3000).unwrap();
+        let gaps = places.windows(2).map(|pair| pair[1] - pair[0]);
+        let (least, most) = (gaps.clone().min().unwrap(), gaps.max().unwrap());
+        // The steps are 2^17 ÷ 2^12 and twice that.
+        assert_eq!((least, most), (32, 64));
     }
 }

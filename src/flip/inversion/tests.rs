@@ -173,13 +173,3 @@ fn every_length_is_scaled_alike() {
     let flat = Points::Double(alloc::vec![[3.0, 0.0, 3.0], [1.0, 2.0, 3.0]]);
     assert!(Flip::new(viewpoint, KERNELS[0]).keeps_in_plane(&flat));
 }
-
-#[test]
-fn the_antipodal_flip_moves_points_to_2r_and_their_distance() {
-    let flip = Flip::new([1.0, 0.0, 0.0], Kernel::Antipodal { radius: 10.0 });
-    assert_eq!(
-        flip.apply([4.0, 4.0, 0.0]),
-        Some(DVec3::new(15.0, 20.0, 0.0))
-    );
-    assert_eq!(flip.reach(), 80.0);
-}

@@ -11,15 +11,13 @@
 
 mod cell;
 mod cone;
-mod elsewhere;
 mod far;
 mod leaf_cache;
 mod sector;
 #[cfg(test)]
 mod tests;
 
-pub(crate) use self::elsewhere::Elsewhere;
-pub use self::sector::Sector;
+pub(crate) use self::sector::Sector;
 
 use alloc::vec::Vec;
 use glam::DVec3;

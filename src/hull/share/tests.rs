@@ -25,7 +25,7 @@ fn division(
     let seen: Vec<bool> = Division::sample(&blocks)
         .map(|index| index % 3 == 0)
         .collect();
-    let sector = Sector::new(number, count).unwrap();
+    let sector = Sector { number, count };
     let center = DVec3::from_array(viewpoint);
     Division::new(points, &blocks, center, radius, &seen, sector).unwrap()
 }

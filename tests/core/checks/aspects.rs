@@ -20,23 +20,20 @@ pub enum Aspect {
     Planar,
     /// Several viewpoints at once.
     Union,
-    /// The vote of a point and its neighbors.
-    Voted,
     /// In single precision.
     Single,
-    /// In several sectors.
+    /// Shared by threads.
     Divided,
     /// Along an axis, for small whole coordinates.
     Direction,
 }
 
 impl Aspect {
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 7] = [
         Self::Merged,
         Self::Changed,
         Self::Planar,
         Self::Union,
-        Self::Voted,
         Self::Single,
         Self::Divided,
         Self::Direction,
@@ -58,13 +55,12 @@ impl Aspect {
             Self::Planar => planar(scene)?,
             Self::Single => (single(scene)?, expected),
             Self::Union => union(scene, visible, rng)?,
-            Self::Voted => voted(scene, visible, rng)?,
             Self::Direction => along_axis(scene, rng)?,
             Self::Divided => {
                 let cloud = PointCloud::new(&scene.points).ok()?;
-                let count = 2 + rng.below(5) as u32;
+                let count = 2 + rng.below(5);
                 let compared = sectors::compare(&cloud, scene.viewpoint, &scene.options, count);
-                return Some(compared.map(|_| ()));
+                return Some(compared);
             }
         };
         let wrong = || format!("answered {found:?}, expected {expected:?}");
@@ -197,41 +193,6 @@ fn union(scene: &Scene, visible: &[bool], rng: &mut Rng) -> Option<(Vec<u32>, Ve
     };
     let expected: Vec<bool> = counts.iter().map(|&count| count >= least).collect();
     Some((found.ok()?.into_indices(), indices_of(&expected)))
-}
-
-/// A point is visible if more than two fifths of the point and its nearest distinct neighbors are.
-fn voted(scene: &Scene, visible: &[bool], rng: &mut Rng) -> Option<(Vec<u32>, Vec<u32>)> {
-    let points = &scene.points;
-    // Squared distances must tell points apart, so clouds with tiny coordinates are left out.
-    let squared = |p: [f64; 3], q: [f64; 3]| {
-        let v: [f64; 3] = core::array::from_fn(|i| p[i] - q[i]);
-        v[0] * v[0] + v[1] * v[1] + v[2] * v[2]
-    };
-    if points.len() < 2
-        || points
-            .iter()
-            .flatten()
-            .any(|x| *x != 0.0 && x.abs() < 1e-100)
-    {
-        return None;
-    }
-    let k = 1 + rng.below(points.len() - 1);
-    let options = scene.options.vote(k);
-    let cloud = PointCloud::new(points).ok()?;
-    let found = cloud.visible_from(scene.viewpoint, &options).ok()?;
-    let is_seen = |p: &[f64; 3]| visible[points.iter().position(|q| q == p).expect("a point")];
-    let wins = |p: &[f64; 3]| {
-        let mut near = points.clone();
-        near.sort_by(|a, b| {
-            let [of_a, of_b] = [a, b].map(|q| (squared(*p, *q), *q));
-            of_a.partial_cmp(&of_b).expect("finite numbers")
-        });
-        near.dedup();
-        near.truncate(k + 1);
-        5 * near.iter().filter(|q| is_seen(q)).count() > 2 * near.len()
-    };
-    let expected: Vec<bool> = points.iter().map(wins).collect();
-    Some((found.into_indices(), indices_of(&expected)))
 }
 
 /// The lower boundary of the lifted points, in integers: nothing rounds.

@@ -37,18 +37,16 @@ impl From {
 /// Options without absolute numbers, so that they mean the same in every unit.
 fn options(rng: &mut Rng, points: usize, along: bool) -> Options {
     let radius = match rng.below(4) {
-        0 if !along && points < 200 => rng.pick(&[Radius::Search, Radius::Opposite]),
+        0 if !along && points < 200 => Radius::Opposite,
         1 => Radius::Exponent(rng.pick(&[0.0, 1.0, 3.0])),
         _ => Radius::Auto,
     };
-    let options = match rng.below(7) {
+    match rng.below(7) {
         0..3 => Options::with_inversion(Inversion::Looks(2 + rng.below(2))).scores(true),
         3 => Options::with_inversion(Inversion::Exponential(Exponential::Auto)),
         4 if !along => Options::with_inversion(Inversion::Power(rng.between(1.1, 4.0))),
         _ => Options::default().radius(radius),
-    };
-    let neighbors = |rng: &mut Rng| (points > 3 && rng.chance(4)).then_some(3);
-    options.denoise(neighbors(rng)).vote(neighbors(rng))
+    }
 }
 
 /// The radius and the inversion, and for each point of an order whether it is visible, and the bits of its score.
@@ -107,7 +105,7 @@ pub fn check(scene: &Scene, rng: &mut Rng) -> Result<(), String> {
     let after = ask(&cloud_of(&shuffled, rng.chance(2)))?;
     same(&title("shuffled"), bits(&after, &back), expected.clone())?;
 
-    // Strangers come and go. Copies come and stay, unless noise is removed: they are neighbors.
+    // Strangers come and go. Copies come and stay.
     let mut changed = cloud_of(points, false);
     let strangers: Vec<_> = (0..1 + rng.below(9)).map(|_| rng.in_ball()).collect();
     changed
@@ -120,13 +118,11 @@ pub fn check(scene: &Scene, rng: &mut Rng) -> Result<(), String> {
     changed.remove(&gone).map_err(|error| error.to_string())?;
     let after = bits(&ask(&changed)?, &straight);
     same(&title("changed"), after, expected.clone())?;
-    if options.denoise.is_none() {
-        changed.append(points).map_err(|error| error.to_string())?;
-        let twice = ask(&changed)?;
-        same(&title("copied"), bits(&twice, &straight), expected.clone())?;
-        let copies: Vec<usize> = (n + strangers.len()..changed.len()).collect();
-        same(&title("copies"), bits(&twice, &copies), expected.clone())?;
-    }
+    changed.append(points).map_err(|error| error.to_string())?;
+    let twice = ask(&changed)?;
+    same(&title("copied"), bits(&twice, &straight), expected.clone())?;
+    let copies: Vec<usize> = (n + strangers.len()..changed.len()).collect();
+    same(&title("copies"), bits(&twice, &copies), expected.clone())?;
 
     // Where no number leaves the range, and along a direction for any length of it.
     let is_moderate = |x: &f64| *x == 0.0 || (1e-60..1e60).contains(&x.abs());

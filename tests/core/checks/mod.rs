@@ -14,13 +14,12 @@ pub mod boxes;
 mod camera;
 mod coverage;
 mod dimensions;
-mod drafts;
 mod invariance;
 pub mod maps;
 mod oracle;
-mod parts;
 mod sectors;
 mod sees;
+mod slices;
 mod threads;
 mod within;
 
@@ -32,10 +31,10 @@ pub struct Check {
     pub ask: fn(&Scene, &mut Rng) -> Result<(), String>,
 }
 
-pub const CHECKS: [Check; 13] = [
+pub const CHECKS: [Check; 12] = [
     check("oracle", oracle::subject, oracle::check),
     check("sectors", |rng| subject(rng, 2500), sectors::check),
-    check("drafts", drafts::subject, drafts::check),
+    check("slices", slices::subject, slices::check),
     check("boxes", boxes::subject, boxes::check),
     check("dimensions", dimensions::subject, dimensions::check),
     check("camera", |rng| subject(rng, 2500), camera::check),
@@ -43,7 +42,6 @@ pub const CHECKS: [Check; 13] = [
     check("within", |rng| subject(rng, 1200), within::check),
     check("coverage", |rng| subject(rng, 400), coverage::check),
     check("invariance", |rng| subject(rng, 2500), invariance::check),
-    check("parts", |rng| subject(rng, 1200), parts::check),
     check("maps", maps::subject, maps::check),
     check("threads", |rng| subject(rng, 9000), threads::check),
 ];
@@ -106,12 +104,6 @@ fn options(scene: &Scene, rng: &mut Rng) -> Options {
         4 => Options::with_inversion(Inversion::Exponential(Exponential::Auto)),
         _ => Options::with_inversion(Inversion::Looks(2 + rng.below(2))),
     };
-    if rng.chance(5) {
-        options.denoise = Some(1 + rng.below(8));
-    }
-    if rng.chance(5) {
-        options.vote = Some(1 + rng.below(8));
-    }
     if rng.chance(5) {
         options = only(some_choice(rng, scene), &options);
     }

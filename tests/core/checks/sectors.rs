@@ -1,4 +1,4 @@
-//! Divided views compared with whole views: viewpoints in planes and lines of points, 2 to 64 sectors.
+//! Views that 2 to 64 threads share, compared with those of one: viewpoints in planes and lines of points.
 
 use crate::common::rng::Rng;
 use crate::common::scenes::Scene;
@@ -13,8 +13,8 @@ pub fn check(scene: &Scene, rng: &mut Rng) -> Result<(), String> {
     for _ in 0..VIEWS {
         let count = match rng.below(16) {
             0..7 => 2,
-            7..15 => 3 + rng.below(5) as u32,
-            _ => 8 + rng.below(57) as u32,
+            7..15 => 3 + rng.below(5),
+            _ => 8 + rng.below(57),
         };
         sectors::compare(&cloud, viewpoint, &options, count)
             .map_err(|wrong| format!("from {viewpoint:?} with {options:?}: {wrong}"))?;

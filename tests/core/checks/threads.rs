@@ -53,9 +53,7 @@ fn answers(cloud: &Threads, viewpoints: &[[f64; 3]], options: &Options) -> Vec<S
 
 pub fn check(scene: &Scene, rng: &mut Rng) -> Result<(), String> {
     let cloud = PointCloud::new(&scene.points).map_err(|error| error.to_string())?;
-    let options = options(scene, rng)
-        .draft(rng.chance(8))
-        .sample(rng.chance(8).then_some(200));
+    let options = options(scene, rng);
     let mut viewpoints = vec![scene.viewpoint];
     for _ in 0..rng.below(4) {
         viewpoints.push(structured::viewpoint(rng, &scene.points));

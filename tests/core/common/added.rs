@@ -24,9 +24,6 @@ pub fn by_definition(
             return Ok(false);
         }
     }
-    if let Some(k) = options.denoise.take() {
-        part = part.denoised(k)?;
-    }
     let without = part.visible_from(viewpoint, &options)?;
     if !matches!(options.inversion, Inversion::Looks(_)) {
         options.inversion = without.inversion();

@@ -343,7 +343,7 @@ pub fn options(rng: &mut Rng, points: &[[f64; 3]], viewpoint: [f64; 3]) -> Optio
         0..4 => Radius::Auto,
         4 if farthest > 0.0 => Radius::Absolute(farthest),
         5 if farthest > 0.0 => Radius::Absolute(farthest * rng.pick(&[1.5, 2.0, 7.0, 1e3, 1e7])),
-        6 if points.len() < 600 => rng.pick(&[Radius::Search, Radius::Opposite]),
+        6 if points.len() < 600 => Radius::Opposite,
         7 => Radius::Exponent(rng.pick(&[0.0, 0.01, 0.3, 7.9, 8.0, 11.0])),
         8 => {
             return Options::with_inversion(rng.pick(&[

@@ -1,4 +1,4 @@
-//! The choice of R by a search: the antipodal search and the paper's rule.
+//! The choice of R by the paper's rule.
 
 use hidden_point_removal::{ChosenRadius, Error, Options, PointCloud, Radius};
 
@@ -7,11 +7,6 @@ use crate::common::rng::Rng;
 use crate::common::{ask, shapes};
 
 const FRONT: [f64; 3] = [0.3, -0.2, 3.0];
-const RULES: [Radius; 2] = [Radius::Search, Radius::Opposite];
-
-fn by(radius: Radius) -> Options {
-    Options::default().radius(radius)
-}
 
 fn chosen(points: &[[f64; 3]], viewpoint: [f64; 3], rule: Radius) -> ChosenRadius {
     let cloud = PointCloud::new(points).unwrap();
@@ -34,39 +29,14 @@ fn seen_by_one(points: &[[f64; 3]], mirror: [f64; 3], radius: f64) -> usize {
 #[test]
 fn answers_use_the_radius_that_the_rule_chose() {
     let points = shapes::bumpy(&mut Rng::new(21), 1500);
-    for rule in RULES {
-        let chosen = chosen(&points, FRONT, rule);
-        let answer = ask(&points, FRONT, &by(rule));
-        assert_eq!(answer.radius(), chosen.radius);
-        assert_eq!(answer.exponent(), chosen.exponent);
-        assert_eq!(answer.evaluations(), chosen.evaluations);
-        let same = ask(&points, FRONT, &Options::with_radius(chosen.radius));
-        assert_eq!(same.indices(), answer.indices());
-        assert!(
-            (chosen.exponent - (chosen.radius / farthest(&points, FRONT)).log10()).abs() < 1e-12
-        );
-    }
-    assert_eq!(chosen(&points, FRONT, Radius::Search).evaluations, 6);
-}
-
-#[test]
-fn the_antipodal_search_stays_near_the_closed_form_and_finds_dense_shells() {
-    let mut rng = Rng::new(22);
-    let near = |radius: f64, auto: f64| (radius / auto).log10().abs();
-    for n in [300, 3000] {
-        let points = shapes::bumpy(&mut rng, n);
-        for viewpoint in [FRONT, [0.0, 9.0, 1.0], [0.1; 3]] {
-            let auto = chosen(&points, viewpoint, Radius::Auto).radius;
-            let search = chosen(&points, viewpoint, Radius::Search).radius;
-            assert!(near(search, auto) < 0.2501, "{search} against {auto}");
-        }
-    }
-    // Seen from inside a single shell, every ray holds one point. The search then returns the R of
-    // the closed form.
-    let shell = shapes::sphere(&mut rng, 2000);
-    let auto = chosen(&shell, [0.1; 3], Radius::Auto);
-    let search = chosen(&shell, [0.1; 3], Radius::Search);
-    assert_eq!((search.radius, search.evaluations), (auto.radius, 6));
+    let chosen = chosen(&points, FRONT, Radius::Opposite);
+    let answer = ask(&points, FRONT, &Options::default().radius(Radius::Opposite));
+    assert_eq!(answer.radius(), chosen.radius);
+    assert_eq!(answer.exponent(), chosen.exponent);
+    assert_eq!(answer.evaluations(), chosen.evaluations);
+    let same = ask(&points, FRONT, &Options::with_radius(chosen.radius));
+    assert_eq!(same.indices(), answer.indices());
+    assert!((chosen.exponent - (chosen.radius / farthest(&points, FRONT)).log10()).abs() < 1e-12);
 }
 
 #[test]
@@ -110,10 +80,8 @@ fn at_the_centroid_the_papers_rule_falls_back() {
 #[test]
 fn distances_beyond_the_range_are_refused() {
     let cloud = PointCloud::new(&[[1e160, 0.0, 0.0], [0.0; 3]]).unwrap();
-    for rule in RULES {
-        let error = cloud.auto_radius([0.0; 3], rule).unwrap_err();
-        assert!(matches!(error, Error::RadiusOverflow { .. }));
-    }
+    let error = cloud.auto_radius([0.0; 3], Radius::Opposite).unwrap_err();
+    assert!(matches!(error, Error::RadiusOverflow { .. }));
     // The mirror image is out of range, the viewpoint is not.
     let far = [0.0, 1.2e154, 1.21e154, 1.22e154].map(|x| [x, 0.0, 0.0]);
     let viewpoint = [5e152, 0.0, 0.0];

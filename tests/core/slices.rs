@@ -1,6 +1,6 @@
-//! Several looks in slices, so that a viewer can give them up: the answers must stay the same.
+//! Views in slices, so that a viewer can give them up: the answers must stay the same.
 
-use hidden_point_removal::{Inversion, Observer, Options, PointCloud, Visibility};
+use hidden_point_removal::{Exponential, Inversion, Observer, Options, PointCloud, Visibility};
 
 use crate::common::scenes::KINDS;
 use crate::test;
@@ -78,7 +78,7 @@ fn other_questions_may_come_between_slices() {
     let whole = |at, options: &Options| cloud.visible_from(at, options).unwrap();
     let between: [(&str, [f64; 3], Options); 5] = [
         ("one hull", viewpoint, Options::default()),
-        ("a draft", viewpoint, Options::default().draft(true)),
+        ("a larger radius", viewpoint, Options::with_exponent(4.0)),
         ("two looks", viewpoint, looks(2)),
         (
             "no scores",
@@ -87,19 +87,29 @@ fn other_questions_may_come_between_slices() {
         ),
         ("another place", elsewhere, looks(3)),
     ];
-    for (title, at, other) in between {
+    let asked = [
+        looks(3),
+        Options::default(),
+        Options::with_exponent(0.0),
+        Options::with_inversion(Inversion::Power(1.5)),
+        Options::with_inversion(Inversion::Exponential(Exponential::Auto)),
+    ];
+    for (options, (title, at, other)) in asked
+        .iter()
+        .flat_map(|asked| between.map(|other| (asked, other)))
+    {
         let mut observer = cloud.observer();
         for begun in 1..12 {
             for _ in 0..begun {
-                observer.go_on(viewpoint, &looks(3), 100).unwrap();
+                observer.go_on(viewpoint, options, 100).unwrap();
             }
             assert_eq!(
                 observer.visible_from(at, &other).unwrap(),
                 whole(at, &other),
                 "{title}"
             );
-            let (sliced, _) = in_slices(&mut observer, viewpoint, &looks(3), 100);
-            assert_eq!(sliced, whole(viewpoint, &looks(3)), "{title} after {begun}");
+            let (sliced, _) = in_slices(&mut observer, viewpoint, options, 100);
+            assert_eq!(sliced, whole(viewpoint, options), "{title} after {begun}");
         }
     }
 }

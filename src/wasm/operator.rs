@@ -1,4 +1,4 @@
-//! Clouds in space.
+//! What both modules have: clouds in space and their changes, the operator, and its radius.
 
 use alloc::boxed::Box;
 
@@ -9,10 +9,13 @@ use wasm_bindgen::prelude::*;
 
 use crate::PointCloud;
 use crate::base::build::FULL;
-use crate::wasm::cloud_options::{CloudOptions, non_finite};
-use crate::wasm::clouds::{Cloud, change_any, created};
+use crate::hull::Memory;
+use crate::view::refusals::QuestionKind;
+use crate::wasm::answer::{answered, chosen};
+use crate::wasm::clouds::{Cloud, change_any, created, with_cloud, with_memory};
 #[cfg(feature = "wasm")]
 use crate::wasm::higher::hyper_cloud;
+use crate::wasm::options::{CloudOptions, ViewOptions};
 #[cfg(feature = "wasm")]
 use crate::wasm::transfer::numbers;
 use crate::wasm::transfer::{Coordinates, copy_in_integers, points};
@@ -24,7 +27,7 @@ pub fn create_cloud(
     dimension: u32,
     options: &CloudOptions,
 ) -> Result<JsValue, JsValue> {
-    let non_finite = non_finite(options);
+    let non_finite = options.non_finite();
     #[cfg(feature = "wasm")]
     if dimension > 3 {
         return created(hyper_cloud(positions, dimension as usize, non_finite));
@@ -66,4 +69,45 @@ pub fn remove(handle: u32, indices: &Uint32Array) -> Result<JsValue, JsValue> {
         #[cfg(feature = "wasm")]
         Cloud::Horizon(_) => Ok(()),
     })
+}
+
+/// Which points are visible from (x, y, z)?
+#[wasm_bindgen(js_name = visibleFrom, unchecked_return_type = "Answer")]
+pub fn visible_from(
+    handle: u32,
+    x: f64,
+    y: f64,
+    z: f64,
+    options: &ViewOptions,
+) -> Result<JsValue, JsValue> {
+    let view = options.read();
+    if FULL {
+        return answered(with_memory(
+            handle,
+            [x, y, z],
+            options,
+            &view,
+            |cloud, memory| cloud.visible_from_with(memory, [x, y, z], &view),
+        ));
+    }
+    // The operator alone goes on from no slice. New room takes at most 2 % longer.
+    answered(with_cloud(handle, |cloud| {
+        view.check(QuestionKind::View)?;
+        cloud.seen_by_hull(1, &mut Memory::new(), [x, y, z], &view)
+    }))
+}
+
+/// The radius that the rule of `options` chooses for (x, y, z).
+#[wasm_bindgen(js_name = autoRadius, unchecked_return_type = "ChosenRadius")]
+pub fn auto_radius(
+    handle: u32,
+    x: f64,
+    y: f64,
+    z: f64,
+    options: &ViewOptions,
+) -> Result<JsValue, JsValue> {
+    let rule = options.read().radius;
+    chosen(with_cloud(handle, |cloud| {
+        cloud.auto_radius([x, y, z], rule)
+    }))
 }
