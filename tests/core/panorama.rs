@@ -293,6 +293,58 @@ fn neither_order_nor_duplicates_nor_units_change_it() {
     }
 }
 
+/// Small clouds from places in their planes, between two points or beside them.
+#[test]
+fn the_areas_are_those_of_the_pixels() {
+    let mut rng = Rng::new(11);
+    for round in 0..400 {
+        let whole = |rng: &mut Rng| [0; 3].map(|_| f64::from(rng.integer(-4, 4)));
+        let mut points: Vec<_> = (0..4 + rng.below(8)).map(|_| whole(&mut rng)).collect();
+        let from = match round % 3 {
+            0 => whole(&mut rng),
+            1 => {
+                let [a, b] = [rng.pick(&points), rng.pick(&points)];
+                core::array::from_fn(|axis| 0.5 * (a[axis] + b[axis]))
+            }
+            _ => [0; 3].map(|_| rng.between(-4.0, 4.0)),
+        };
+        let unit = 2f64.powi(rng.integer(-100, 100));
+        points.iter_mut().for_each(|p| *p = p.map(|x| x * unit));
+        let options = match rng.below(3) {
+            0 => Options::default(),
+            1 => Options::with_exponent(2.0),
+            _ => Options::with_inversion(Inversion::Exponential(Exponential::Auto)),
+        };
+        let panorama = seen(&points, from.map(|x| x * unit), &options);
+        let title = format!("{from:?}, {points:?}, {options:?}");
+        assert!(panorama.solid_angle <= 4.0 * PI, "{title}");
+        let error = covered(&panorama) - panorama.solid_angle;
+        assert!(error.abs() < 0.1, "{error} at {title}");
+        let rows = panorama.indices.chunks(SIZE.width).enumerate();
+        let sky = rows.take(SIZE.height / 2).map(|(row, indices)| {
+            let sine = |edge: usize| (PI * edge as f64 / SIZE.height as f64).sin().powi(2);
+            let sky = indices
+                .iter()
+                .filter(|&&index| index == Panorama::SKY)
+                .count();
+            sky as f64 * (sine(row + 1) - sine(row)) / SIZE.width as f64
+        });
+        let error = sky.sum::<f64>() - panorama.sky_view_factor;
+        assert!(error.abs() < 0.02, "{error} at {title}");
+    }
+}
+
+#[test]
+fn ranges_beyond_single_precision_are_no_sky() {
+    let points: Vec<_> = room(2000, true)
+        .iter()
+        .map(|p| p.map(|x| x * 1e39))
+        .collect();
+    let panorama = seen(&points, INSIDE.map(|x| x * 1e39), &Options::default());
+    assert!(panorama.indices.iter().all(|&index| index != Panorama::SKY));
+    assert!(panorama.ranges.iter().all(|&range| range == f32::MAX));
+}
+
 #[test]
 fn few_points_are_no_surface() {
     let flat: Vec<_> = (0..50).map(|i| [f64::from(i), 3.0, 0.0]).collect();

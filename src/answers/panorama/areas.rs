@@ -1,6 +1,6 @@
 //! The areas of spherical triangles, and of their projections to the ground.
 
-use core::f64::consts::PI;
+use core::f64::consts::{PI, TAU};
 use glam::DVec3;
 
 use crate::base::real::{larger, smaller, square_root};
@@ -8,28 +8,47 @@ use crate::base::real::{larger, smaller, square_root};
 /// The areas of triangles between unit vectors.
 #[derive(Default)]
 pub(super) struct Areas {
-    /// In steradians.
-    pub solid_angle: f64,
+    solid_angle: f64,
     /// Of the parts above the horizon, on the ground under a sphere of radius 1.
     projected: f64,
 }
 
+/// A triangle is uncertain where both the sine and the cosine of half its area, times the same number, are below this:
+/// where two corners are opposite to each other, any great circle passes through both. So is half a sphere.
+const CERTAIN: f64 = 1e-6;
+
 impl Areas {
-    pub(super) fn add(&mut self, corners: [DVec3; 3], up: DVec3) {
-        self.solid_angle += solid_angle(corners);
+    /// Adds the area of a triangle. Returns false where rounded corners do not tell it.
+    pub(super) fn add(&mut self, corners: [DVec3; 3], up: DVec3) -> bool {
+        // Van Oosterom and Strackee 1983.
+        let [a, b, c] = corners;
+        let sine = a.dot(b.cross(c)).abs();
+        let cosine = 1.0 + a.dot(b) + b.dot(c) + c.dot(a);
+        if larger(sine, cosine) < CERTAIN {
+            return false;
+        }
+        self.solid_angle += 2.0 * libm::atan2(sine, cosine);
         self.projected += projected(corners, up);
+        true
+    }
+
+    /// Adds a pixel of an image whose rows are between these cosines from up, the larger one first.
+    pub(super) fn add_pixel(&mut self, [high, low]: [f64; 2], columns: usize) {
+        let across = TAU / columns as f64;
+        self.solid_angle += across * (high - low);
+        let (high, low) = (larger(high, 0.0), larger(low, 0.0));
+        self.projected += 0.5 * across * (high * high - low * low);
+    }
+
+    /// How much of the sphere it is, in steradians.
+    pub(super) fn solid_angle(&self) -> f64 {
+        smaller(self.solid_angle, 4.0 * PI)
     }
 
     /// The share of the sky in the upper half of the sphere, weighted by the cosine from up.
     pub(super) fn sky_view_factor(&self) -> f64 {
         smaller(larger(1.0 - self.projected / PI, 0.0), 1.0)
     }
-}
-
-/// The solid angle between three unit vectors (Van Oosterom and Strackee 1983).
-fn solid_angle([a, b, c]: [DVec3; 3]) -> f64 {
-    let volume = a.dot(b.cross(c)).abs();
-    2.0 * libm::atan2(volume, 1.0 + a.dot(b) + b.dot(c) + c.dot(a))
 }
 
 /// The area of the part above the horizon, projected along `up` to the ground (Lambert 1760): half the

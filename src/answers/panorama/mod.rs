@@ -5,7 +5,8 @@
 //! SUMMARY  The visible points are flipped once more, so far that all of them are vertices. The outer
 //!          faces then are the Delaunay triangles of their directions. A triangle is surface if its
 //!          corners are as near to each other as samples are (`surface`). The ray of each pixel walks
-//!          to its triangle. The areas are those of the triangles, not of pixels (`areas`).
+//!          to its triangle. The areas are those of the triangles, not of pixels, unless two corners of a triangle
+//!          are opposite to each other (`areas`).
 
 mod areas;
 mod options;
@@ -19,7 +20,7 @@ use crate::answers::memory::ViewMemory;
 use crate::base::allocation::filled;
 use crate::base::beat;
 use crate::base::error::Error;
-use crate::base::real::power_of_two_below;
+use crate::base::real::{power_of_two_below, smaller};
 use crate::cloud::point_cloud::PointCloud;
 use crate::cloud::sequence::Sequence;
 use crate::flip::inversion::Flip;
@@ -27,7 +28,6 @@ use crate::flip::kernel::Kernel;
 use crate::hull::{self, OuterFaces};
 use crate::view::options::Options;
 use crate::view::refusals::QuestionKind;
-use areas::Areas;
 use options::Image;
 pub use options::PanoramaOptions;
 use surface::Surface;
@@ -139,12 +139,10 @@ impl Panorama {
         let unit = power_of_two_below((1.0 / farthest).min(f64::MAX));
         let origin = DVec3::from_array(viewpoint);
         let place = |own: u32| (DVec3::from_array(points.get(own as usize)) - origin) * unit;
-        let surface = Surface::of(&faces, &place)?;
-        let mut areas = Areas::default();
-        surface.each(&faces, &mut |corners| areas.add(corners, image.up));
-        self.solid_angle = areas.solid_angle;
-        self.sky_view_factor = areas.sky_view_factor();
+        let mut surface = Surface::of(&faces, &place)?;
+        let mut areas = surface.areas(&faces, image.up);
         for row in 0..image.height {
+            let edges = [row, row + 1].map(|edge| image.cosine(edge));
             for column in 0..image.width {
                 beat::step_at(column);
                 let direction = image.direction(row, column);
@@ -154,12 +152,18 @@ impl Panorama {
                 if let Some((range, vertex)) = surface.at(face, corners, direction) {
                     let own = faces.points_of_vertices()[vertex as usize];
                     let pixel = row * image.width + column;
-                    self.ranges[pixel] = (range / unit) as f32;
+                    // Infinity is the sky.
+                    self.ranges[pixel] = smaller(range / unit, f64::from(f32::MAX)) as f32;
                     let indices = shown.indices_of(own as usize).iter().copied();
                     self.indices[pixel] = indices.min().unwrap_or(Panorama::SKY);
+                    if surface.in_pixels[face as usize] {
+                        areas.add_pixel(edges, image.width);
+                    }
                 }
             }
         }
+        self.solid_angle = areas.solid_angle();
+        self.sky_view_factor = areas.sky_view_factor();
         Ok(())
     }
 }

@@ -75,6 +75,11 @@ impl Image {
         self.width * self.height
     }
 
+    /// The cosine from up at the upper edge of a row.
+    pub fn cosine(&self, row: usize) -> f64 {
+        sine_cosine(PI * row as f64 / self.height as f64).1
+    }
+
     /// The direction of a pixel's middle, of length 1.
     pub fn direction(&self, row: usize, column: usize) -> DVec3 {
         let (across, along) = sine_cosine(PI * (row as f64 + 0.5) / self.height as f64);

@@ -4,6 +4,7 @@ use alloc::vec::Vec;
 use glam::DVec3;
 
 use crate::answers::looks::{Corners, Triangle};
+use crate::answers::panorama::areas::Areas;
 use crate::base::allocation::{OutOfMemory, filled, push};
 use crate::base::real::square_root;
 use crate::base::sort::percentile;
@@ -33,6 +34,8 @@ pub(super) struct Surface {
     directions: Corners,
     /// By the number of the face.
     kinds: Vec<Kind>,
+    /// Surface whose area pixels tell, by the number of the face.
+    pub(super) in_pixels: Vec<bool>,
 }
 
 impl Surface {
@@ -50,6 +53,7 @@ impl Surface {
         let directions = Corners::of(faces, &direction, &unknown)?.smoothed()?;
         Ok(Self {
             kinds: kinds(faces, &places, &directions)?,
+            in_pixels: filled(faces.slots(), false)?,
             places,
             directions,
         })
@@ -87,13 +91,16 @@ impl Surface {
         Some((range, nearest))
     }
 
-    /// Passes the directions of the corners of each triangle that is surface.
-    pub(super) fn each(&self, faces: &dyn OuterFaces, pass: &mut dyn FnMut([DVec3; 3])) {
+    /// The areas of the triangles that are surface, but for those that pixels tell.
+    pub(super) fn areas(&mut self, faces: &dyn OuterFaces, up: DVec3) -> Areas {
+        let mut areas = Areas::default();
         for (id, corners) in outer(faces) {
             if self.kinds[id as usize] != Kind::Sky {
-                pass(corners.map(|vertex| self.directions.at(vertex).place));
+                let corners = corners.map(|vertex| self.directions.at(vertex).place);
+                self.in_pixels[id as usize] = !areas.add(corners, up);
             }
         }
+        areas
     }
 }
 
