@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 
 use crate::answers::merge::check_mergeable;
 use crate::base::allocation::{push, with_capacity};
-use crate::base::error::Error;
+use crate::base::error::{Error, check_box};
 use crate::cloud::point_cloud::{NonFinite, PointCloud};
 use crate::cloud::points::{Given, Points, Position, checked_len, is_finite};
 use crate::flip::inversion::Flip;
@@ -60,7 +60,7 @@ impl Horizon {
     /// Adds points. The horizon then hides what all points so far hide together.
     ///
     /// # Errors
-    /// [`Error::NonFinite`], [`Error::RadiusTooSmall`] for a point beyond the radius,
+    /// [`Error::NonFinite`], [`Error::Radius`] for a point beyond the radius,
     /// [`Error::TooManyPoints`], [`Error::OutOfMemory`]. The horizon is unchanged then.
     pub fn add<P: Position>(&mut self, positions: &[P]) -> Result<(), Error> {
         self.grow(P::given(positions))
@@ -131,12 +131,17 @@ impl Horizon {
     /// answer `true` is certain. A box may be hidden although the answer is `false`.
     ///
     /// # Errors
-    /// [`Error::BoundsInvalid`] if a coordinate is not finite, or if one of `min` is above that of
+    /// [`Error::Parameter`] if a coordinate is not finite, or if one of `min` is above that of
     /// `max`.
     pub fn hides_box(&self, min: [f64; 3], max: [f64; 3]) -> Result<bool, Error> {
-        let is_box = (0..3).all(|axis| min[axis] <= max[axis]);
-        if !(is_box && is_finite(min) && is_finite(max)) {
-            return Err(Error::BoundsInvalid);
+        check_box([min, max])?;
+        let mut corners = min.into_iter().chain(max);
+        if let Some(value) = corners.find(|x| !x.is_finite()) {
+            return Err(Error::Parameter {
+                option: "a box",
+                must_be: "finite",
+                value,
+            });
         }
         // Points outside of the sphere cannot be flipped.
         if self

@@ -45,7 +45,7 @@ impl PointCloud {
     /// [`Options::within`] asks the same cloud. Indices stay.
     ///
     /// # Errors
-    /// [`Error::BoundsInvalid`]; [`Error::OutOfRange`] for a distance below 0;
+    /// [`Error::Parameter`] for a box; [`Error::OutOfRange`] for a distance below 0;
     /// [`Error::Viewpoint`]; [`Error::OutOfMemory`].
     pub fn within(&self, within: &Within, viewpoint: [f64; 3]) -> Result<Self, Error> {
         Ok(match within.region(Some(viewpoint))? {
@@ -59,7 +59,7 @@ impl PointCloud {
     /// distance, because each viewpoint has other points there.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] and [`Error::BoundsInvalid`] as for the view;
+    /// [`Error::OutOfRange`] and [`Error::Parameter`] as for the view;
     /// [`Error::OutOfMemory`]. After an error the cloud answers as before.
     pub fn prepare_for(&mut self, options: &Options) -> Result<(), Error> {
         self.keep_part(None, options)

@@ -190,7 +190,7 @@ impl PointCloud {
     /// [`Error::Viewpoint`] for a viewpoint that is not finite; the `Radius…`
     /// errors for a choice of R that does not fit the view, or its
     /// inversion; [`Error::Parameter`]; [`Error::OutOfRange`] for a number of looks that is not 2 or 3;
-    /// [`Error::Excludes`] for options that exclude each other; [`Error::BoundsInvalid`];
+    /// [`Error::Excludes`] for options that exclude each other;
     /// [`Error::OutOfMemory`].
     pub fn visible_from(
         &self,

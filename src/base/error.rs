@@ -54,17 +54,12 @@ pub enum Error {
         /// The cloud's dimension.
         dimension: usize,
     },
-    /// The radius is NaN, infinite, zero or negative.
-    RadiusInvalid {
+    /// The radius is not finite and positive, or smaller than the distance of the farthest point, so
+    /// the sphere would not hold the cloud (paper, eq. 1).
+    Radius {
         /// The radius as given.
         radius: f64,
-    },
-    /// The radius is smaller than the distance of the farthest point, so the
-    /// sphere would not hold the cloud (paper, eq. 1).
-    RadiusTooSmall {
-        /// The radius as given.
-        radius: f64,
-        /// The smallest radius that would be accepted.
+        /// The smallest radius that would be accepted, as far as it is known.
         farthest: f64,
     },
     /// A distance from the viewpoint, or twice the radius, exceeds the range of `f64`.
@@ -90,8 +85,6 @@ pub enum Error {
         /// The other option, or the question.
         other: &'static str,
     },
-    /// A box has a minimum above its maximum, or a coordinate that is NaN (or, for a horizon, infinite).
-    BoundsInvalid,
     /// A mask does not have one element for each index of the cloud.
     MaskLength {
         /// How many elements it has.
@@ -147,13 +140,10 @@ impl Error {
             | Self::Camera { .. }
             | Self::ViewpointDimension { .. }
             | Self::Direction { .. } => "viewpoint",
-            Self::RadiusInvalid { .. }
-            | Self::RadiusTooSmall { .. }
-            | Self::RadiusOverflow { .. } => "radius",
+            Self::Radius { .. } | Self::RadiusOverflow { .. } => "radius",
             Self::Parameter { .. }
             | Self::Excludes { .. }
             | Self::OutOfRange { .. }
-            | Self::BoundsInvalid
             | Self::MaskLength { .. }
             | Self::Dimension { .. }
             | Self::IndexOutOfRange { .. }
@@ -209,20 +199,17 @@ impl Error {
                 words = [option, other];
                 "@ cannot be combined with @"
             }
-            Self::BoundsInvalid => {
-                "a box must be [min, max], where no coordinate of min is above that of max"
-            }
             Self::MaskLength { given, len } => {
                 numbers = [len as f64, given as f64, 0.0];
                 "within mask must have one element for each of # indices, got #"
             }
-            Self::RadiusInvalid { radius } => {
-                numbers[0] = radius;
-                "radius must be finite and positive, got #"
-            }
-            Self::RadiusTooSmall { radius, farthest } => {
+            Self::Radius { radius, farthest } => {
                 numbers = [radius, farthest, 0.0];
-                "radius # is smaller than the distance of the farthest point, #"
+                if radius > 0.0 && radius.is_finite() {
+                    "radius # is smaller than the distance of the farthest point, #"
+                } else {
+                    "radius must be finite and positive, got #"
+                }
             }
             Self::RadiusOverflow { radius, farthest } => {
                 numbers = [radius.unwrap_or(farthest), farthest, 0.0];
@@ -333,6 +320,20 @@ pub(crate) fn in_range(
             most,
         })
     }
+}
+
+/// Refuses a box of which a minimum is above its maximum, or a coordinate is NaN.
+pub(crate) fn check_box([min, max]: [[f64; 3]; 2]) -> Result<(), Error> {
+    // The comparison also refuses a NaN.
+    let is_wrong = |&axis: &usize| !(min[axis] <= max[axis]);
+    let wrong = (0..3).find(is_wrong);
+    wrong.map_or(Ok(()), |axis| {
+        Err(Error::Parameter {
+            option: "a box",
+            must_be: "[min, max], where no coordinate of min is above that of max",
+            value: min[axis],
+        })
+    })
 }
 
 impl From<alloc::collections::TryReserveError> for Error {

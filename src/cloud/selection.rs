@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::base::error::{Error, in_range};
+use crate::base::error::{Error, check_box, in_range};
 use crate::base::real::square_root;
 use crate::cloud::points::is_finite;
 
@@ -20,13 +20,7 @@ impl Within {
         if let Some(distance) = self.distance {
             in_range("within distance", distance, 0.0, f64::INFINITY)?;
         }
-        if let Some([min, max]) = self.bounds {
-            // The comparison also refuses a NaN.
-            if !(0..3).all(|axis| min[axis] <= max[axis]) {
-                return Err(Error::BoundsInvalid);
-            }
-        }
-        Ok(())
+        self.bounds.map_or(Ok(()), check_box)
     }
 
     /// The places of the points that take part in a view from `viewpoint`; `None` if that is

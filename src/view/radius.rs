@@ -68,10 +68,8 @@ pub(crate) const LARGEST: f64 = f64::MAX / 2.0 * (1.0 - 1e-15);
 pub(crate) fn given(choice: Radius, farthest: f64) -> Result<ChosenRadius, Error> {
     match choice {
         Radius::Absolute(radius) => {
-            if !(radius > 0.0 && radius.is_finite()) {
-                Err(Error::RadiusInvalid { radius })
-            } else if radius < farthest {
-                Err(Error::RadiusTooSmall { radius, farthest })
+            if !(radius > 0.0 && radius.is_finite() && radius >= farthest) {
+                Err(Error::Radius { radius, farthest })
             } else if radius > LARGEST {
                 Err(Error::RadiusOverflow {
                     radius: Some(radius),

@@ -83,10 +83,7 @@ fn cameras_that_are_none_are_refused() {
     }
     let small = cloud.visible_from_camera(&good, &Options::with_radius(0.5));
     let (radius, farthest) = (0.5, 1.0);
-    assert_eq!(
-        small.unwrap_err(),
-        Error::RadiusTooSmall { radius, farthest }
-    );
+    assert_eq!(small.unwrap_err(), Error::Radius { radius, farthest });
 }
 
 #[test]

@@ -78,7 +78,7 @@ pub fn check(scene: &Scene, options: &Options, places: &[[f64; 3]], title: &str)
         let expected = by_definition(&scene.points, place, scene.viewpoint, options);
         // The unit S of a power cannot be given for a point beyond it.
         let is_power = matches!(options.inversion, Inversion::Power(_));
-        if is_power && matches!(expected, Err(Error::RadiusTooSmall { .. })) {
+        if is_power && matches!(expected, Err(Error::Radius { .. })) {
             continue;
         }
         // A cloud that cannot be viewed itself is refused before the point is looked at.
