@@ -45,6 +45,7 @@ mod view;
 #[cfg(feature = "lite")]
 mod wasm;
 
+pub use answers::calibration::{Calibration, Station};
 pub use answers::camera::CameraView;
 pub use answers::horizon::Horizon;
 pub use answers::illumination::Lighting;
@@ -55,6 +56,9 @@ pub use answers::placement::{Choice, Placement, Placing};
 pub use answers::reconstruct::Reconstruction;
 #[cfg(feature = "std")]
 pub use answers::threads::Threads;
+pub use answers::transfer::{
+    Image, Merge, Pixels, Sampling, Transfer, TransferOptions, Transferred, Values, Weights,
+};
 pub use answers::union::ring_of_viewpoints;
 pub use answers::visibility::Visibility;
 pub use answers::visibility_map::{MapOptions, VisibilityMap};

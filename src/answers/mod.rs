@@ -2,6 +2,7 @@
 //! several at once, along a direction, or divided among threads. A cloud can be in parts or
 //! noisy, and only a part of it may take part. The answer can also be a surface, light, or an image of ranges.
 
+pub(crate) mod calibration;
 pub(crate) mod camera;
 pub(crate) mod coverage;
 pub(crate) mod denoise;
@@ -19,6 +20,7 @@ pub(crate) mod reconstruct;
 pub(crate) mod sector;
 pub(crate) mod sees;
 pub(crate) mod threads;
+pub(crate) mod transfer;
 pub(crate) mod union;
 pub(crate) mod visibility;
 pub(crate) mod visibility_map;

@@ -324,9 +324,9 @@ pub(crate) fn in_range(
 
 /// Refuses a box of which a minimum is above its maximum, or a coordinate is NaN.
 pub(crate) fn check_box([min, max]: [[f64; 3]; 2]) -> Result<(), Error> {
-    // The comparison also refuses a NaN.
-    let is_wrong = |&axis: &usize| !(min[axis] <= max[axis]);
-    let wrong = (0..3).find(is_wrong);
+    // This also refuses a NaN.
+    let is_right = |axis: usize| min[axis] <= max[axis];
+    let wrong = (0..3).find(|&axis| !is_right(axis));
     wrong.map_or(Ok(()), |axis| {
         Err(Error::Parameter {
             option: "a box",

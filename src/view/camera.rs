@@ -309,6 +309,11 @@ impl Lens<'_> {
         if is_inside { ([u, v], depth) } else { OUTSIDE }
     }
 
+    /// The optical axis.
+    pub(crate) fn ahead(&self) -> DVec3 {
+        self.axes[2]
+    }
+
     /// The direction of length 1 from a point to the camera.
     pub(crate) fn towards(&self, p: [f64; 3]) -> [f32; 3] {
         let v = self.place - DVec3::from_array(p);

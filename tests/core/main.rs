@@ -5,6 +5,7 @@ mod common;
 mod short;
 
 mod automatic;
+mod calibration;
 mod camera;
 mod changes;
 mod coverage;
@@ -42,6 +43,7 @@ mod slices;
 mod survivors;
 mod thin;
 mod threads;
+mod transfer;
 mod union;
 mod within;
 

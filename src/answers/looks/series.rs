@@ -207,10 +207,9 @@ impl Series {
         let blocks = &blocks.levels[0];
         let kernel = self.tuning.kernel(look.scale, self.farthest);
         let flip = Flip::new(viewpoint, kernel).rescaled_for(own);
-        if self.next == 0 && budget < usize::MAX {
-            if !hull::go_on(own, blocks, &flip, memory, budget)? {
-                return Ok(Outcome::Begun);
-            }
+        let is_sliced = self.next == 0 && budget < usize::MAX;
+        if is_sliced && !hull::go_on(own, blocks, &flip, memory, budget)? {
+            return Ok(Outcome::Begun);
         }
         hull::mark_visible(own, blocks, &flip, memory)?;
         let verdicts = &mut self.verdicts;

@@ -1,0 +1,576 @@
+//! From images to points: colors, labels or features.
+//!
+//! INPUT    what some cameras see, and an image of each, one after another.
+//! OUTPUT   for each index the merged values of the cameras that see it.
+//! SUMMARY  A mean needs sums only, and the best value only the best so far. A median and a vote need every value: they
+//!          are kept as compactly as the image has them.
+
+use alloc::vec::Vec;
+
+use glam::DVec3;
+
+use crate::answers::camera::CameraView;
+use crate::answers::threads::Threads;
+use crate::base::allocation::{copied, filled, push, reserve, with_capacity};
+use crate::base::error::{Error, in_range};
+use crate::base::real::floor;
+use crate::cloud::point_cloud::PointCloud;
+use crate::view::camera::Camera;
+use crate::view::options::Options;
+
+/// How the values of several cameras become one.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Merge {
+    /// The weighted mean of each channel.
+    #[default]
+    Mean,
+    /// The weighted median of each channel.
+    Median,
+    /// The pixel with the most weight among equal ones, for labels; of equal weights, that of the first camera.
+    Vote,
+    /// The pixel of the camera with the highest weight; of equal weights, that of the first camera.
+    Best,
+}
+
+/// How much a camera counts.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Weights {
+    /// All the same.
+    #[default]
+    Equal,
+    /// 1 ÷ the square of the depth.
+    Distance,
+    /// The cosine of the angle between the ray and the optical axis.
+    Angle,
+    /// The score of the view, which needs [`Options::scores`].
+    Score,
+}
+
+/// Where in an image a value is taken.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Sampling {
+    /// The pixel in which the point is.
+    #[default]
+    Nearest,
+    /// Between the centers of four pixels. Those without a value do not count.
+    Bilinear,
+}
+
+/// How values are taken from images.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct TransferOptions {
+    /// How the values of several cameras become one.
+    pub merge: Merge,
+    /// How much a camera counts.
+    pub weights: Weights,
+    /// Where in an image a value is taken. [`Merge::Vote`] needs the nearest pixel.
+    pub sampling: Sampling,
+}
+
+/// An image of the size of its camera's, row by row from above, the channels of a pixel side by side. A pixel with a
+/// NaN gives no value, nor one with alpha 0 in an image of 4 bytes a pixel.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Image<'a> {
+    /// The numbers.
+    pub pixels: Pixels<'a>,
+    /// How many numbers a pixel has.
+    pub channels: usize,
+}
+
+/// The numbers of an image.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Pixels<'a> {
+    /// Bytes.
+    Bytes(&'a [u8]),
+    /// Single precision.
+    Singles(&'a [f32]),
+    /// Double precision, which also holds whole numbers up to 2⁵³.
+    Doubles(&'a [f64]),
+}
+
+/// What images say about the points of a cloud.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Transferred {
+    /// Numbers for each index, channel by channel; NaN where no camera gave a value.
+    pub values: Values,
+    /// How many numbers each index has.
+    pub channels: usize,
+    /// How many cameras gave a value, for each index.
+    pub seen: Vec<u32>,
+}
+
+/// Values in single precision, or in double precision where an image had it.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Values {
+    /// Single precision.
+    Singles(Vec<f32>),
+    /// Double precision.
+    Doubles(Vec<f64>),
+}
+
+impl PointCloud {
+    /// Takes values from images to the points that their cameras see. `images` is asked for one image after another, and
+    /// none is kept.
+    ///
+    /// ```
+    /// use hidden_point_removal::{Camera, Image, Options, Pixels, PointCloud, TransferOptions, Values};
+    ///
+    /// let cloud = PointCloud::new(&[[0.0, 0.0, 4.0], [0.0, 0.0, 8.0]])?;
+    /// let camera = Camera::new(1.0, 1.0, 0.5, 0.5, 1.0, 1.0);
+    /// let image = Image { pixels: Pixels::Bytes(&[10, 20, 30]), channels: 3 };
+    /// let how = TransferOptions::default();
+    /// let colors = cloud.transfer(&[camera], [image], &Options::default(), &how)?;
+    /// assert_eq!(colors.seen, [1, 0]);
+    /// let Values::Singles(values) = colors.values else { unreachable!() };
+    /// assert_eq!(values[..3], [10.0, 20.0, 30.0]);
+    /// assert!(values[3].is_nan());
+    /// # Ok::<(), hidden_point_removal::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for images of another size or number; [`Error::Excludes`]; otherwise as
+    /// [`PointCloud::visible_from_camera`].
+    pub fn transfer<'a>(
+        &self,
+        cameras: &[Camera],
+        images: impl IntoIterator<Item = Image<'a>>,
+        options: &Options,
+        how: &TransferOptions,
+    ) -> Result<Transferred, Error> {
+        self.alone().transfer(cameras, images, options, how)
+    }
+}
+
+impl Threads<'_> {
+    /// As [`PointCloud::transfer`].
+    ///
+    /// # Errors
+    /// As [`PointCloud::transfer`].
+    pub fn transfer<'a>(
+        &self,
+        cameras: &[Camera],
+        images: impl IntoIterator<Item = Image<'a>>,
+        options: &Options,
+        how: &TransferOptions,
+    ) -> Result<Transferred, Error> {
+        let mut transfer = Transfer::new(self.len(), how)?;
+        let options = options.scores(how.weights == Weights::Score);
+        let mut images = images.into_iter();
+        let count = cameras.len() as f64;
+        let of_number = |number: f64| in_range("the number of images", number, count, count);
+        for (number, camera) in cameras.iter().enumerate() {
+            let view = self.visible_from_camera(camera, &options)?;
+            match images.next() {
+                Some(image) => transfer.add(camera, &view, &image)?,
+                None => drop(of_number(number as f64)?),
+            }
+        }
+        if images.next().is_some() {
+            of_number(count + 1.0)?;
+        }
+        transfer.finish()
+    }
+}
+
+/// Values that are taken from one image after another.
+pub struct Transfer {
+    how: TransferOptions,
+    /// 0 before the first image.
+    channels: usize,
+    /// Whether the values need double precision.
+    is_double: bool,
+    seen: Vec<u32>,
+    /// The total or the highest weight of each index.
+    weights: Vec<f64>,
+    /// The sum, or the best pixel, of each index, in blocks of [`BLOCK`] indices.
+    rows: Vec<Vec<f64>>,
+    /// What each camera saw, where every value is needed.
+    observed: Vec<Observed>,
+}
+
+/// One pass over the values frees a block after another, so that they are not in memory twice.
+const BLOCK: usize = 1024;
+
+/// The values of one camera.
+struct Observed {
+    indices: Vec<u32>,
+    weights: Vec<f32>,
+    rows: Kept,
+}
+
+/// Numbers of images, as they are.
+enum Kept {
+    Bytes(Vec<u8>),
+    Singles(Vec<f32>),
+    Doubles(Vec<f64>),
+}
+
+impl Transfer {
+    /// Nothing yet, for a cloud of so many indices.
+    ///
+    /// # Errors
+    /// [`Error::Excludes`] for a vote between pixels; [`Error::OutOfMemory`].
+    pub fn new(len: usize, how: &TransferOptions) -> Result<Self, Error> {
+        if (how.merge, how.sampling) == (Merge::Vote, Sampling::Bilinear) {
+            return Err(Error::Excludes {
+                option: "sampling bilinear",
+                other: "merge vote",
+            });
+        }
+        Ok(Self {
+            how: *how,
+            channels: 0,
+            is_double: false,
+            seen: filled(len, 0)?,
+            weights: filled(len, 0.0)?,
+            rows: Vec::new(),
+            observed: Vec::new(),
+        })
+    }
+
+    /// Takes the values of what a camera sees: an answer of [`PointCloud::visible_from_camera`].
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for an image of another size, or of another number of channels than the one before;
+    /// [`Error::OutOfMemory`].
+    pub fn add(&mut self, camera: &Camera, view: &CameraView, image: &Image) -> Result<(), Error> {
+        let size = camera.width * camera.height * image.channels as f64;
+        in_range(
+            "the size of an image",
+            image.pixels.len() as f64,
+            size,
+            size,
+        )?;
+        in_range("channels", image.channels as f64, 1.0, u32::MAX.into())?;
+        if self.channels == 0 {
+            self.channels = image.channels;
+            if !self.needs_all() {
+                let blocks = self.seen.len().div_ceil(BLOCK);
+                reserve(&mut self.rows, blocks)?;
+                self.rows.resize_with(blocks, Vec::new);
+            }
+        }
+        let channels = self.channels as f64;
+        in_range("channels", image.channels as f64, channels, channels)?;
+        self.is_double |= matches!(image.pixels, Pixels::Doubles(_));
+        let ahead = camera.lens()?.ahead();
+        let raster = Raster {
+            image,
+            width: camera.width as usize,
+            height: camera.height as usize,
+        };
+        let mut observed = Observed::like(&image.pixels, self.how.sampling);
+        let mut row: Vec<f64> = filled(self.channels, 0.0)?;
+        for (k, &index) in view.visibility.indices().iter().enumerate() {
+            let [u, v] = view.pixels[k].map(f64::from);
+            let is_given = match self.how.sampling {
+                Sampling::Nearest => raster.nearest(floor(u), floor(v), &mut row),
+                Sampling::Bilinear => raster.between(u - 0.5, v - 0.5, &mut row)?,
+            };
+            if !is_given {
+                continue;
+            }
+            let weight = match self.how.weights {
+                Weights::Equal => 1.0,
+                Weights::Distance => {
+                    let depth = f64::from(view.depths[k]);
+                    1.0 / (depth * depth)
+                }
+                Weights::Angle => {
+                    let towards = view.towards[k].map(f64::from);
+                    -ahead.dot(DVec3::from_array(towards))
+                }
+                Weights::Score => {
+                    let scores = view.visibility.scores();
+                    scores.get(index as usize).copied().unwrap_or(0.0).into()
+                }
+            };
+            if self.needs_all() {
+                observed.push(index, weight as f32, &row)?;
+            } else {
+                self.merge(index as usize, weight, &row)?;
+            }
+            self.seen[index as usize] += 1;
+        }
+        if self.needs_all() {
+            push(&mut self.observed, observed)?;
+        }
+        Ok(())
+    }
+
+    /// Whether the merge needs every value.
+    fn needs_all(&self) -> bool {
+        matches!(self.how.merge, Merge::Median | Merge::Vote)
+    }
+
+    fn merge(&mut self, index: usize, weight: f64, row: &[f64]) -> Result<(), Error> {
+        let block = &mut self.rows[index / BLOCK];
+        if block.is_empty() {
+            let indices = BLOCK.min(self.seen.len() - index / BLOCK * BLOCK);
+            *block = filled(indices * self.channels, 0.0)?;
+        }
+        let own = &mut block[index % BLOCK * self.channels..][..self.channels];
+        let before = &mut self.weights[index];
+        if self.how.merge == Merge::Best {
+            if self.seen[index] == 0 || weight > *before {
+                own.copy_from_slice(row);
+                *before = weight;
+            }
+        } else if *before > 0.0 || self.seen[index] == 0 || weight > 0.0 {
+            // Where all weights so far are 0, the first row stands as it is.
+            let times = if weight > 0.0 { weight } else { 1.0 };
+            let is_first = *before == 0.0;
+            for (sum, value) in own.iter_mut().zip(row) {
+                *sum = if is_first {
+                    times * value
+                } else {
+                    *sum + weight * value
+                };
+            }
+            *before += weight;
+        }
+        Ok(())
+    }
+
+    /// The merged values.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`].
+    pub fn finish(mut self) -> Result<Transferred, Error> {
+        let channels = self.channels.max(1);
+        let count = self.seen.len() * channels;
+        let mut values = if self.is_double {
+            Values::Doubles(with_capacity(count)?)
+        } else {
+            Values::Singles(with_capacity(count)?)
+        };
+        if self.needs_all() {
+            self.merge_observed(channels, &mut values)?;
+        } else {
+            let blocks = core::mem::take(&mut self.rows);
+            for (number, block) in blocks.into_iter().enumerate() {
+                for (k, row) in block.chunks(channels).enumerate() {
+                    let index = number * BLOCK + k;
+                    let total = self.weights[index];
+                    let is_mean = self.how.merge == Merge::Mean && total > 0.0;
+                    let of = |value: f64| match self.seen[index] {
+                        0 => f64::NAN,
+                        _ if is_mean => value / total,
+                        _ => value,
+                    };
+                    row.iter().for_each(|&value| values.push(of(value)));
+                }
+                let filled = (number * BLOCK + BLOCK).min(self.seen.len());
+                values.fill(filled * channels);
+            }
+        }
+        values.fill(count);
+        Ok(Transferred {
+            values,
+            channels,
+            seen: self.seen,
+        })
+    }
+
+    fn merge_observed(&self, channels: usize, values: &mut Values) -> Result<(), Error> {
+        // The entries of each index, in the order of the cameras.
+        let mut starts: Vec<usize> = with_capacity(self.seen.len() + 1)?;
+        let mut total = 0;
+        for &count in &self.seen {
+            starts.push(total);
+            total += count as usize;
+        }
+        let mut next = copied(&starts)?;
+        starts.push(total);
+        let mut entries: Vec<(u32, u32)> = filled(total, (0, 0))?;
+        for (number, observed) in self.observed.iter().enumerate() {
+            for (k, &index) in observed.indices.iter().enumerate() {
+                entries[next[index as usize]] = (number as u32, k as u32);
+                next[index as usize] += 1;
+            }
+        }
+        let most = self.seen.iter().copied().max().unwrap_or(0) as usize;
+        let mut order: Vec<(f64, f64)> = with_capacity(most)?;
+        for ends in starts.windows(2) {
+            let own = &entries[ends[0]..ends[1]];
+            let weight = |&(camera, k): &(u32, u32)| {
+                f64::from(self.observed[camera as usize].weights[k as usize])
+            };
+            let at = |&(camera, k): &(u32, u32), channel: usize| {
+                let rows = &self.observed[camera as usize].rows;
+                rows.get(k as usize * channels + channel)
+            };
+            if own.is_empty() {
+                values.fill(values.len() + channels);
+            } else if self.how.merge == Merge::Median {
+                for channel in 0..channels {
+                    order.clear();
+                    order.extend(own.iter().map(|entry| (at(entry, channel), weight(entry))));
+                    order.sort_by(|a, b| a.0.total_cmp(&b.0));
+                    values.push(median(&order));
+                }
+            } else {
+                let equal = |a, b| (0..channels).all(|channel| at(a, channel) == at(b, channel));
+                let votes = |entry| {
+                    let same = own.iter().filter(|other| equal(entry, other));
+                    same.fold(0.0, |sum, other| sum + weight(other))
+                };
+                let mut best = (&own[0], votes(&own[0]));
+                for entry in &own[1..] {
+                    let votes = votes(entry);
+                    if votes > best.1 {
+                        best = (entry, votes);
+                    }
+                }
+                (0..channels).for_each(|channel| values.push(at(best.0, channel)));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The value, of sorted ones with their weights, at which half of the weight is reached; between two values if it is
+/// reached exactly there.
+fn median(sorted: &[(f64, f64)]) -> f64 {
+    let half = sorted.iter().fold(0.0, |sum, (_, weight)| sum + weight) / 2.0;
+    let mut sum = 0.0;
+    for (k, &(value, weight)) in sorted.iter().enumerate() {
+        sum += weight;
+        match sorted.get(k + 1) {
+            Some(_) if sum < half => {}
+            Some(&(next, _)) if sum == half => return 0.5 * value + 0.5 * next,
+            _ => return value,
+        }
+    }
+    f64::NAN
+}
+
+impl Observed {
+    fn like(pixels: &Pixels, sampling: Sampling) -> Self {
+        Self {
+            indices: Vec::new(),
+            weights: Vec::new(),
+            rows: match pixels {
+                Pixels::Bytes(_) if sampling == Sampling::Nearest => Kept::Bytes(Vec::new()),
+                Pixels::Bytes(_) | Pixels::Singles(_) => Kept::Singles(Vec::new()),
+                Pixels::Doubles(_) => Kept::Doubles(Vec::new()),
+            },
+        }
+    }
+
+    fn push(&mut self, index: u32, weight: f32, row: &[f64]) -> Result<(), Error> {
+        push(&mut self.indices, index)?;
+        push(&mut self.weights, weight)?;
+        match &mut self.rows {
+            Kept::Bytes(rows) => {
+                reserve(rows, row.len())?;
+                rows.extend(row.iter().map(|&value| value as u8));
+            }
+            Kept::Singles(rows) => {
+                reserve(rows, row.len())?;
+                rows.extend(row.iter().map(|&value| value as f32));
+            }
+            Kept::Doubles(rows) => {
+                reserve(rows, row.len())?;
+                rows.extend(row);
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Kept {
+    fn get(&self, at: usize) -> f64 {
+        match self {
+            Self::Bytes(numbers) => numbers[at].into(),
+            Self::Singles(numbers) => numbers[at].into(),
+            Self::Doubles(numbers) => numbers[at],
+        }
+    }
+}
+
+impl Pixels<'_> {
+    fn len(&self) -> usize {
+        match self {
+            Self::Bytes(numbers) => numbers.len(),
+            Self::Singles(numbers) => numbers.len(),
+            Self::Doubles(numbers) => numbers.len(),
+        }
+    }
+}
+
+impl Values {
+    fn len(&self) -> usize {
+        match self {
+            Self::Singles(values) => values.len(),
+            Self::Doubles(values) => values.len(),
+        }
+    }
+
+    fn push(&mut self, value: f64) {
+        match self {
+            Self::Singles(values) => values.push(value as f32),
+            Self::Doubles(values) => values.push(value),
+        }
+    }
+
+    /// Adds NaN up to this length, for which there is room.
+    fn fill(&mut self, len: usize) {
+        match self {
+            Self::Singles(values) => values.resize(len, f32::NAN),
+            Self::Doubles(values) => values.resize(len, f64::NAN),
+        }
+    }
+}
+
+/// An image and its size.
+struct Raster<'a> {
+    image: &'a Image<'a>,
+    width: usize,
+    height: usize,
+}
+
+impl Raster<'_> {
+    /// The pixel at this column and row, or the nearest one of the image. Returns whether it has a value.
+    fn nearest(&self, column: f64, row: f64, into: &mut [f64]) -> bool {
+        // Conversions saturate: negative numbers become 0.
+        let x = (column as usize).min(self.width - 1);
+        let y = (row as usize).min(self.height - 1);
+        let at = (y * self.width + x) * into.len();
+        match self.image.pixels {
+            Pixels::Bytes(numbers) => {
+                let own = &numbers[at..at + into.len()];
+                let numbers = own.iter().map(|&byte| f64::from(byte));
+                (into.iter_mut().zip(numbers)).for_each(|(to, from)| *to = from);
+                !matches!(own, [_, _, _, 0])
+            }
+            Pixels::Singles(numbers) => {
+                let numbers = numbers[at..].iter().map(|&number| f64::from(number));
+                (into.iter_mut().zip(numbers)).for_each(|(to, from)| *to = from);
+                !into.iter().any(|x| x.is_nan())
+            }
+            Pixels::Doubles(numbers) => {
+                into.copy_from_slice(&numbers[at..at + into.len()]);
+                !into.iter().any(|x| x.is_nan())
+            }
+        }
+    }
+
+    /// Between four pixels, whose centers have whole coordinates here.
+    fn between(&self, x: f64, y: f64, into: &mut [f64]) -> Result<bool, Error> {
+        let (left, up) = (floor(x), floor(y));
+        let (right, down) = (x - left, y - up);
+        let mut sums: Vec<f64> = filled(into.len(), 0.0)?;
+        let mut total = 0.0;
+        for (i, j) in [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0)] {
+            let across = if i > 0.0 { right } else { 1.0 - right };
+            let weight = across * if j > 0.0 { down } else { 1.0 - down };
+            if weight > 0.0 && self.nearest(left + i, up + j, into) {
+                (sums.iter_mut().zip(&*into)).for_each(|(sum, value)| *sum += weight * value);
+                total += weight;
+            }
+        }
+        (into.iter_mut().zip(sums)).for_each(|(to, sum)| *to = sum / total);
+        Ok(total > 0.0)
+    }
+}
