@@ -2,7 +2,7 @@
 import { addDisposeSymbol } from "./base/dispose-symbol.js";
 import { describe, HprError } from "./base/errors.js";
 import { addTag } from "./base/tag.js";
-import { type CoreOptions, HeldCloud, type OperatorBindings } from "./cloud/held-cloud.js";
+import { HeldCloud, type OperatorBindings } from "./cloud/held-cloud.js";
 import { type Visibility as FullVisibility, VisibilityAnswer } from "./cloud/visibility.js";
 import { type Binary, compiledOnce, compileOwn, type InitInput, type SyncInitInput } from "./instance/compile.js";
 import { type Engine, required } from "./instance/engine.js";
@@ -20,13 +20,11 @@ import { type Positions, readViewpoint, type Viewpoint } from "./query/positions
 import {
   chosenInversion,
   chosenRadius,
-  coreNumbers,
   type Inversion,
   NO_OPTIONS,
   resolvedInversion,
   ruleSettings,
   type ResolvedInversion as FullInversion,
-  type ViewSettings,
 } from "./query/view-options.js";
 
 export { HprError, type HprErrorCode } from "./base/errors.js";
@@ -173,7 +171,7 @@ export class PointCloud {
     refuseOpposite("radius", given["radius"]);
     const settings = { ...NO_OPTIONS, ...chosenRadius(given), ...chosenInversion(given["inversion"]) };
     const { instance, handle } = this.#cloud.requireOpen();
-    const answer = instance.call((bindings) => bindings.visibleFrom(handle, x, y, z, coreOptions(settings)));
+    const answer = instance.call((bindings) => bindings.visibleFrom(handle, x, y, z, settings));
     const { indices, radius, exponent, evaluations, scales } = answer;
     const { length } = this;
     const inversion = resolvedInversion(settings, scales);
@@ -194,7 +192,7 @@ export class PointCloud {
     // Refuses what is no rule at all.
     const settings = ruleSettings(rule);
     const { instance, handle } = this.#cloud.requireOpen();
-    return instance.call((bindings) => bindings.autoRadius(handle, x, y, z, coreOptions(settings)));
+    return instance.call((bindings) => bindings.autoRadius(handle, x, y, z, settings));
   }
 
   /**
@@ -247,10 +245,6 @@ export function hiddenPointRemoval(
   } finally {
     cloud.dispose();
   }
-}
-
-function coreOptions(settings: ViewSettings): CoreOptions {
-  return { ...coreNumbers(settings), memory: (length) => new Uint32Array(length) };
 }
 
 /** Refuses the rule that asks for more than one hull. */

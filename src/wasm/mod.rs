@@ -67,7 +67,7 @@ interface ViewOptions {
   /** Negative: automatic. */
   thickness: number;
   /** A distance, the lowest x, y, z and the highest ones; infinite where there is no limit. */
-  within: Float64Array;
+  within: ArrayLike<number>;
   mask?: Uint8Array | undefined;
 }
 interface ChosenRadius { radius: number; exponent: number; evaluations: number }

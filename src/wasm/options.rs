@@ -1,6 +1,8 @@
 //! Options of a cloud and of a view. JavaScript has checked their types; the crate checks their ranges.
 
-use js_sys::{Float64Array, Function, Uint8Array};
+use alloc::vec::Vec;
+
+use js_sys::{Function, Uint8Array};
 use wasm_bindgen::prelude::*;
 
 use crate::base::build::FULL;
@@ -32,7 +34,7 @@ extern "C" {
     #[wasm_bindgen(method, getter)]
     fn thickness(this: &ViewOptions) -> f64;
     #[wasm_bindgen(method, getter)]
-    fn within(this: &ViewOptions) -> Float64Array;
+    fn within(this: &ViewOptions) -> Vec<f64>;
     #[wasm_bindgen(method, getter)]
     pub(super) fn mask(this: &ViewOptions) -> Option<Uint8Array>;
 }
@@ -78,9 +80,7 @@ impl ViewOptions {
     }
 
     fn read_within(&self) -> Option<Within> {
-        let mut numbers = [0.0; 7];
-        self.within().copy_to(&mut numbers);
-        let [distance, a, b, c, d, e, f] = numbers;
+        let [distance, a, b, c, d, e, f] = *self.within().first_chunk()?;
         let bounds = [[a, b, c], [d, e, f]];
         let is_bounded = bounds != [[f64::NEG_INFINITY; 3], [f64::INFINITY; 3]];
         let within = Within {

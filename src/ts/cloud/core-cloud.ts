@@ -2,7 +2,7 @@ import type { Bindings } from "../instance/instance.js";
 import type { Answers } from "../query/answers.js";
 import type { Query, QueryKind } from "../query/queries.js";
 import { HeldCloud } from "./held-cloud.js";
-import { coreOptions, perform } from "./perform.js";
+import { perform } from "./perform.js";
 
 /** The number of points in a slice of a view. A slice takes some 5 to 10 ms. */
 const SLICE = 40_000;
@@ -30,6 +30,6 @@ export class CoreCloud extends HeldCloud<Bindings> {
       return true;
     }
     const [x, y, z] = viewpoint as [number, number, number];
-    return instance.call((bindings) => bindings.goOn(handle, x, y, z, coreOptions(settings), SLICE));
+    return instance.call((bindings) => bindings.goOn(handle, x, y, z, settings, SLICE));
   }
 }

@@ -8,9 +8,6 @@ import { freeCloud, unreachable } from "./free.js";
 /** The exports that every wasm has. */
 export type OperatorBindings = Omit<typeof lite, "__wbg_set_wasm">;
 
-/** The options of a view, as the core reads them: `coreNumbers` and memory. */
-export type CoreOptions = Parameters<OperatorBindings["visibleFrom"]>[4];
-
 /** A cloud's place: its number in an instance. */
 interface Held<Bindings> {
   instance: Instance<Bindings>;

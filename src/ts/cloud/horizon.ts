@@ -4,10 +4,8 @@ import { addTag } from "../base/tag.js";
 import { HprError } from "../base/errors.js";
 import { type Bindings, type Instance, requireInstance } from "../instance/instance.js";
 import { type Positions, readPositions, readViewpoint, type Viewpoint } from "../query/positions.js";
-import type { ViewSettings } from "../query/view-options.js";
 import { freeCloud, unreachable } from "./free.js";
 import { type MergeOptions, mergeSettings } from "./merge.js";
-import { coreOptions } from "./perform.js";
 
 /**
  * The hull of some points of a cloud, as seen from one viewpoint. It shows which other points and
@@ -21,7 +19,6 @@ export class Horizon {
   declare readonly [Symbol.dispose]: () => void;
 
   readonly #instance: Instance;
-  readonly #settings: ViewSettings;
   #handle: number | undefined;
 
   static {
@@ -41,9 +38,8 @@ export class Horizon {
     const instance = requireInstance();
     const [x, y, z] = readViewpoint(viewpoint, 3) as [number, number, number];
     const settings = mergeSettings(options, "the whole cloud is seen with");
-    const { handle } = instance.call((bindings) => bindings.createHorizon(x, y, z, coreOptions(settings)));
+    const { handle } = instance.call((bindings) => bindings.createHorizon(x, y, z, settings));
     this.#instance = instance;
-    this.#settings = settings;
     this.#handle = handle;
     unreachable.register(this, { instance, handle }, this);
   }
@@ -68,8 +64,7 @@ export class Horizon {
    * @throws HprError as {@link Horizon.add}.
    */
   screen(positions: Positions): Uint32Array {
-    const options = coreOptions(this.#settings);
-    return this.#call(positions, (bindings, handle, numbers) => bindings.screen(handle, numbers, options));
+    return this.#call(positions, (bindings, handle, numbers) => bindings.screen(handle, numbers));
   }
 
   /**
@@ -94,7 +89,7 @@ export class Horizon {
    */
   visible(): Float64Array {
     const handle = this.#requireHandle();
-    return this.#instance.call((bindings) => bindings.horizonPoints(handle, coreOptions(this.#settings)));
+    return this.#instance.call((bindings) => bindings.horizonPoints(handle));
   }
 
   /** Frees the memory. May be called twice. */

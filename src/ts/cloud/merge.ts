@@ -2,7 +2,6 @@ import { describe, HprError, naming } from "../base/errors.js";
 import { requireInstance } from "../instance/instance.js";
 import { allocating } from "../base/memory.js";
 import { givenOptions } from "../query/options.js";
-import { coreOptions } from "./perform.js";
 import {
   MAX_LENGTH,
   type Positions,
@@ -52,7 +51,7 @@ export interface MergeOptions {
 export function mergeVisible(parts: readonly VisiblePart[], viewpoint: Viewpoint, options: MergeOptions): Uint32Array {
   const instance = requireInstance();
   const [x, y, z] = readViewpoint(viewpoint, 3) as [number, number, number];
-  const settings = coreOptions(mergeSettings(options, "all parts were seen with"));
+  const settings = mergeSettings(options, "all parts were seen with");
   const { positions, ids } = joined(readParts(parts));
   return instance.call((bindings) => bindings.mergeVisible(positions, ids, x, y, z, settings));
 }

@@ -2,10 +2,9 @@ import type { Answers, Found } from "../query/answers.js";
 import { HprError, naming } from "../base/errors.js";
 import type { Bindings, Instance } from "../instance/instance.js";
 import { allocating } from "../base/memory.js";
-import type { CoreOptions } from "./held-cloud.js";
 import type { Query, QueryKind } from "../query/queries.js";
 import { newCounts, viewFrom } from "../query/surveys.js";
-import { coreNumbers, resolvedInversion, type ViewSettings } from "../query/view-options.js";
+import { resolvedInversion, type ViewSettings } from "../query/view-options.js";
 
 /** A cloud in the memory of an instance. */
 interface Target {
@@ -21,11 +20,10 @@ const performers: { [K in QueryKind]: (target: Target, query: Query<K>) => Answe
   visibleFrom: (target, { viewpoint, settings }) => {
     const { instance, handle, dimension } = target;
     const [x, y, z] = viewpoint as [number, number, number];
-    const options = coreOptions(settings);
     const answer = instance.call((bindings) =>
       dimension > 3
-        ? bindings.visibleFromSeveral(handle, Float64Array.from(viewpoint), 1, options)
-        : bindings.visibleFrom(handle, x, y, z, options),
+        ? bindings.visibleFromSeveral(handle, Float64Array.from(viewpoint), 1, settings)
+        : bindings.visibleFrom(handle, x, y, z, settings),
     );
     return found(target, settings, answer);
   },
@@ -33,8 +31,7 @@ const performers: { [K in QueryKind]: (target: Target, query: Query<K>) => Answe
   visibilityMap: ({ instance, handle }, { viewpoint, settings, map, camera }) => {
     const [x, y, z] = viewpoint;
     if (camera) map.set(instance.call((bindings) => bindings.cameraPlace(camera)).subarray(3), 2);
-    const options = coreOptions(settings);
-    return { ...instance.call((bindings) => bindings.visibilityMap(handle, x, y, z, options, map)), viewpoint };
+    return { ...instance.call((bindings) => bindings.visibilityMap(handle, x, y, z, settings, map)), viewpoint };
   },
 
   panorama: ({ instance, handle }, { viewpoint, settings, width, height, up }) => {
@@ -46,22 +43,20 @@ const performers: { [K in QueryKind]: (target: Target, query: Query<K>) => Answe
     const asked = Float64Array.of(...viewpoint, width, height, ...up);
     const areas = new Float64Array(2);
     instance.call((bindings) => {
-      bindings.panorama(handle, asked, coreOptions(settings), ranges, indices, areas);
+      bindings.panorama(handle, asked, settings, ranges, indices, areas);
     });
     return { ranges, indices, skyViewFactor: areas[0]!, solidAngle: areas[1]! };
   },
 
   visibleFromDirection: (target, { direction, settings }) => {
     const [x, y, z] = direction as [number, number, number];
-    const options = coreOptions(settings);
-    const answer = target.instance.call((bindings) => bindings.visibleFromDirection(target.handle, x, y, z, options));
+    const answer = target.instance.call((bindings) => bindings.visibleFromDirection(target.handle, x, y, z, settings));
     return found(target, settings, answer);
   },
 
   visibleFromSeveral: (target, { viewpoints, k, settings }) => {
     const { instance, handle } = target;
-    const options = coreOptions(settings);
-    const answer = instance.call((bindings) => bindings.visibleFromSeveral(handle, viewpoints, k, options));
+    const answer = instance.call((bindings) => bindings.visibleFromSeveral(handle, viewpoints, k, settings));
     return found(target, settings, answer);
   },
 
@@ -99,7 +94,7 @@ const performers: { [K in QueryKind]: (target: Target, query: Query<K>) => Answe
     const [x, y, z] = viewpoint as [number, number, number];
     const seen = allocating(`${positions.length / 3} bytes`, () => new Uint8Array(positions.length / 3));
     instance.call((bindings) => {
-      bindings.sees(handle, x, y, z, positions, coreOptions(settings), seen);
+      bindings.sees(handle, x, y, z, positions, settings, seen);
     });
     return { seen };
   },
@@ -108,8 +103,8 @@ const performers: { [K in QueryKind]: (target: Target, query: Query<K>) => Answe
     const [x, y, z] = viewpoint as [number, number, number];
     return instance.call((bindings) =>
       dimension > 3
-        ? bindings.hyperAutoRadius(handle, Float64Array.from(viewpoint), coreOptions(settings))
-        : bindings.autoRadius(handle, x, y, z, coreOptions(settings)),
+        ? bindings.hyperAutoRadius(handle, Float64Array.from(viewpoint), settings)
+        : bindings.autoRadius(handle, x, y, z, settings),
     );
   },
 
@@ -119,8 +114,7 @@ const performers: { [K in QueryKind]: (target: Target, query: Query<K>) => Answe
 
   reconstruct: (target, { viewpoint, settings, maxEdge }) => {
     const [x, y, z] = viewpoint as [number, number, number];
-    const options = coreOptions(settings);
-    const answer = target.instance.call((bindings) => bindings.reconstruct(target.handle, x, y, z, options, maxEdge));
+    const answer = target.instance.call((bindings) => bindings.reconstruct(target.handle, x, y, z, settings, maxEdge));
     return { ...found(target, settings, answer), triangles: answer.triangles };
   },
 
@@ -134,7 +128,7 @@ const performers: { [K in QueryKind]: (target: Target, query: Query<K>) => Answe
     }
     const brightness = allocating(`${length} numbers`, () => new Float32Array(length));
     instance.call((bindings) => {
-      bindings.illuminate(handle, lights, coreOptions(settings), triangles, smoothing, ambient, brightness);
+      bindings.illuminate(handle, lights, settings, triangles, smoothing, ambient, brightness);
     });
     return { brightness };
   },
@@ -174,11 +168,6 @@ function inImage(indices: Uint32Array<ArrayBuffer>, shown: Float32Array<ArrayBuf
 /** Asks the core. */
 export function perform<K extends QueryKind>(target: Target, query: Query<K>): Answers[K] {
   return naming(query.argument, () => performers[query.kind](target, query));
-}
-
-/** A view's settings as the core reads them. The core calls `memory` for its arrays. */
-export function coreOptions(settings: ViewSettings): CoreOptions {
-  return { ...coreNumbers(settings), memory: (length) => new Uint32Array(length) };
 }
 
 function found({ length }: Target, settings: ViewSettings, answer: CoreAnswer): Found {

@@ -78,7 +78,7 @@ export interface VisibilityOptions {
   within?: Within | undefined;
 }
 
-/** {@link VisibilityOptions}, checked for type. */
+/** {@link VisibilityOptions}, checked for type, as the core reads them (src/wasm/options.rs). */
 export interface ViewSettings extends WithinSettings {
   /** A number of {@link Rule}. */
   rule: number;
@@ -122,13 +122,6 @@ export const NO_OPTIONS: ViewSettings = {
   thickness: AUTOMATIC,
   ...ALL_POINTS,
 };
-
-/** The settings as the core reads them (src/wasm/options.rs). */
-export function coreNumbers({ within, mask, ...settings }: ViewSettings) {
-  const { rule, size, kernel, parameter, scores, thickness } = settings;
-  const numbers = [rule, size, kernel, parameter, Number(scores), thickness];
-  return { numbers: Float64Array.of(...numbers, ...within), mask };
-}
 
 /** The rule of `autoRadius`, as settings. */
 export function ruleSettings(rule: unknown): ViewSettings {
