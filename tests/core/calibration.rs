@@ -5,6 +5,7 @@ use hidden_point_removal::{Inversion, NonFinite, Options, PointCloud, Station, W
 use crate::common::refused;
 use crate::common::rng::Rng;
 use crate::common::shapes;
+use crate::test;
 
 const CENTER: [f64; 3] = [0.0; 3];
 

@@ -5,6 +5,7 @@ use hidden_point_removal::{ChosenRadius, Error, Options, PointCloud, Radius};
 use crate::common::flip::farthest;
 use crate::common::rng::Rng;
 use crate::common::{ask, shapes};
+use crate::test;
 
 const FRONT: [f64; 3] = [0.3, -0.2, 3.0];
 

@@ -4,6 +4,7 @@ use hidden_point_removal::{Options, PointCloud};
 
 use crate::common::rng::Rng;
 use crate::common::{sectors, shapes, structured};
+use crate::test;
 
 /// Panics if the shared and the whole view differ.
 fn compare(

@@ -9,6 +9,7 @@ use crate::common::cameras::camera;
 use crate::common::refused;
 use crate::common::rng::Rng;
 use crate::common::shapes;
+use crate::test;
 
 fn numbers(Transferred { values, .. }: &Transferred) -> Vec<f64> {
     match values {
