@@ -69,7 +69,7 @@ impl VisibilityMap {
         Self {
             numbers,
             data,
-            ..Self::empty(viewpoint, origin, 0.0)
+            ..Self::empty(viewpoint, origin)
         }
     }
 
