@@ -101,7 +101,7 @@ const forbidden = [
     severity: "error",
     from: {
       path: "^src/ts/",
-      pathNot: "^src/ts/((three|nodes|potree|react-three-fiber|deck)/|three-webgpu\\.ts$|formats/read-gltf\\.ts$)",
+      pathNot: "^src/ts/((three|nodes|potree|react-three-fiber|deck)/|three-webgpu\\.ts$|formats/gltf-data\\.ts$)",
     },
     to: { path: "node_modules/(three|@types/three|react|@types/react|@react-three|@deck\\.gl)/" },
   },

@@ -161,7 +161,8 @@ const TYPED: [type: string, row: string, expected: Case["expected"]][] = [
   ["int", "2147483648 0 0", "line 8 is not a point, its x is not of type int32"],
   ["uint", "4294967295 0 0", [4294967295, 0, 0]],
   ["uint", "0 nan 0", "line 8 is not a point, its y is not of type uint32"],
-  ["float", "0.1 nan 16777217", [Math.fround(0.1), NaN, 16777216]],
+  // A text keeps its digits.
+  ["float", "0.1 nan 16777217", [0.1, NaN, 16777217]],
   ["double", "0.1 -inf 16777217", [0.1, NaN, 16777217]],
   ["double", "nan(ind) 1.#QNAN NaN", [NaN, NaN, NaN]],
   ["double", "0 0 1e999", "is out of range"],

@@ -1,8 +1,7 @@
 // Reads a file in this process: once like the command does, and once like the page does.
-import { extname } from "node:path";
 import type { ChosenColumns } from "../../src/ts/formats/axes";
 import { FormatProblem } from "../../src/ts/formats/problem";
-import { FORMATS, readPoints } from "../../src/ts/cli/formats/formats";
+import { readPoints } from "../../src/ts/cli/formats/formats";
 import { LoadProblem } from "../../www/loaders/problem";
 import { readCloud } from "../../www/loaders/read";
 
@@ -10,7 +9,7 @@ export type Outcome = { points: number[] } | { refused: string };
 
 export async function readAsCommand(name: string, content: Uint8Array, chosen?: ChosenColumns): Promise<Outcome> {
   try {
-    const { positions } = await readPoints(FORMATS[extname(name)]!, Buffer.from(content), { chosen });
+    const { positions } = await readPoints(name, Buffer.from(content), { chosen });
     return { points: [...positions] };
   } catch (error) {
     if (!(error instanceof FormatProblem)) throw error;

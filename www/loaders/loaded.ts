@@ -3,7 +3,7 @@ import type { CloudFile, Reading } from "../../src/ts/formats/cloud-file.js";
 import { attributesOf } from "./attributes.ts";
 
 /** The file to read, the largest number of points to keep, and the listener for the progress. */
-export interface Loading extends Pick<Reading, "name" | "onProgress" | "base"> {
+export interface Loading extends Pick<Reading, "name" | "onProgress" | "beside"> {
   blob: Blob;
   limit: number;
   damaged?: boolean | undefined;

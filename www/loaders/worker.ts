@@ -74,8 +74,17 @@ async function load(request: WorkerRequest): Promise<LoadedCloud> {
   const blob = request.kind === "file" ? request.file : await download(name, request.url, downloading);
   if (blob.size === 0) throw new LoadProblem(`${name} is empty.`);
   progress("Reading", null);
-  const base = request.kind === "url" ? new URL(".", request.url).href : undefined;
+  const beside = async (other: string) => {
+    if (request.kind !== "url")
+      throw new LoadProblem(`${name} keeps its points in ${other}. Export it as one GLB file.`);
+    const found = await download(
+      other,
+      new URL(other.split("/").map(encodeURIComponent).join("/"), request.url).href,
+      downloading,
+    );
+    return new Uint8Array(await found.arrayBuffer());
+  };
   // Samples do not need it, and the first cloud is one.
   const { readCloud } = await import("./read.ts");
-  return check(await readCloud({ name, blob, limit, onProgress, base, damaged, chosen }));
+  return check(await readCloud({ name, blob, limit, onProgress, beside, damaged, chosen }));
 }

@@ -9,7 +9,7 @@ import { coloredPly } from "./colored.js";
 import { farNote } from "./far.js";
 import { readAs, writeWhole } from "./files.js";
 import { converted, lost } from "./formats/convert.js";
-import { endingOf, FORMATS, readPoints, writtenAs } from "./formats/formats.js";
+import { readPoints, writtenAs } from "./formats/formats.js";
 import { pointsCopied, type PointFile } from "./formats/point-file.js";
 import { colmapVis } from "../files/cameras/vis.js";
 import { HELP } from "./help.js";
@@ -61,7 +61,7 @@ async function filter(settings: Settings, progress: Progress, say: (line: string
   };
   const file = await readAs(input, onRead, (bytes) => {
     progress.show(0.2, "understanding");
-    return readPoints(FORMATS[endingOf(input)]!, bytes, { chosen: columns, damaged });
+    return readPoints(input, bytes, { chosen: columns, damaged });
   });
   const note = farNote(file.positions, question);
   if (note !== undefined) {

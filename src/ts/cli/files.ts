@@ -2,10 +2,11 @@ import { constants, rmSync, write } from "node:fs";
 import { type FileHandle, lstat, open, readlink, rename, rm, stat } from "node:fs/promises";
 import { dirname, resolve } from "node:path";
 import { promisify } from "node:util";
-import { gunzipSync } from "node:zlib";
 
 import { FormatProblem } from "../formats/problem.js";
 import { allocating } from "../formats/builder.js";
+import { unpacked } from "../formats/gzip.js";
+import { bytesSource } from "../formats/source.js";
 
 const CHUNK = 1 << 24;
 
@@ -50,21 +51,14 @@ export async function readAs<T>(
   understand: (file: Buffer<ArrayBuffer>) => T | Promise<T>,
 ): Promise<T> {
   try {
-    return await understand(unpackedFile(await readWhole(name, onProgress)));
+    const { source } = await unpacked({ source: bytesSource(await readWhole(name, onProgress)), name });
+    const { buffer, byteOffset, length } = await source.read(0, source.size);
+    return await understand(Buffer.from(buffer, byteOffset, length));
   } catch (cause) {
-    throw cause instanceof FormatProblem
-      ? new InputProblem(`${name} cannot be read: ${cause.message}`, { cause })
-      : cause;
-  }
-}
-
-/** A file that was packed with gzip, unpacked. */
-function unpackedFile(file: Buffer<ArrayBuffer>): Buffer<ArrayBuffer> {
-  if (file[0] !== 0x1f || file[1] !== 0x8b) return file;
-  try {
-    return gunzipSync(file);
-  } catch (cause) {
-    throw new FormatProblem("it is packed with gzip, and the packing is damaged", { cause });
+    if (!(cause instanceof FormatProblem)) throw cause;
+    const wayOut =
+      cause.rest === undefined ? "" : ` (--damaged reads ${cause.rest === "anyway" ? "what is there" : "the others"})`;
+    throw new InputProblem(`${name} cannot be read: ${cause.message}${wayOut}`, { cause });
   }
 }
 

@@ -1,6 +1,6 @@
 // Reads the images of cameras with sharp.
 import { stat } from "node:fs/promises";
-import { basename, join } from "node:path";
+import { basename, isAbsolute, join, relative, sep } from "node:path";
 
 import type { TransferImage } from "../query/images.js";
 import { InputProblem } from "./files.js";
@@ -36,6 +36,11 @@ export async function readImage(folder: string, image: string): Promise<Transfer
 
 async function fileOf(folder: string, image: string): Promise<string> {
   const named = image.replaceAll("\\", "/");
+  // The name comes from a file of cameras, which may be anybody's.
+  const inside = relative(folder, join(folder, named));
+  if (inside === ".." || inside.startsWith(`..${sep}`) || isAbsolute(named)) {
+    throw new InputProblem(`the image ${image} of a camera lies outside of ${folder}`);
+  }
   for (const name of new Set([named, basename(named)])) {
     for (const ending of ENDINGS) {
       const path = join(folder, name + ending);

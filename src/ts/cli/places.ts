@@ -1,4 +1,5 @@
 // Reads the files that say from where: cameras, or viewpoints.
+import { Contradictions } from "../formats/contradictions.js";
 import { stat } from "node:fs/promises";
 import { parse } from "node:path";
 
@@ -74,7 +75,7 @@ export async function viewpointsIn(file: Buffer<ArrayBuffer>, inFileNames: boole
     if (inFileNames) takeName(name, known, (says) => lineProblem(number, says, text));
     found.push({ name, seat: [...point.position] });
   }
-  rows.finish();
+  rows.finish(new Contradictions(false));
   return found;
 }
 

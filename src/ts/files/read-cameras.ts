@@ -36,13 +36,23 @@ export async function readCameras(
   try {
     for (const file of files) opened.push(await sourceOf(file, undefined));
     const [first, second] = opened as [NamedSource, NamedSource?];
-    if (second === undefined) return await reading(first, () => readOne(first, size));
+    if (second === undefined) return await reading(first, async () => checkPoses(await readOne(first, size)));
     const isText = /\.txt$/i.test(first.name);
     const cameras = await reading(first, () => (isText ? readCameraLines : readCameraBytes)(first.source));
-    return await reading(second, () => (isText ? readImageLines : readImageBytes)(second.source, cameras));
+    const read = isText ? readImageLines : readImageBytes;
+    return await reading(second, async () => checkPoses(await read(second.source, cameras)));
   } finally {
     await Promise.all(opened.map(({ close }) => close()));
   }
+}
+
+/** Finite numbers of a file may make a pose that is not. */
+function checkPoses(cameras: CameraOfImage[]): CameraOfImage[] {
+  for (const [i, { camera, image }] of cameras.entries()) {
+    if (Array.from(camera.worldToCamera ?? camera.cameraToWorld!).every(Number.isFinite)) continue;
+    throw new FormatProblem(`the pose of camera ${i + 1}${image === "" ? "" : ` (${image})`} is not finite`);
+  }
+  return cameras;
 }
 
 async function reading<T>({ name }: NamedSource, read: () => Promise<T>): Promise<T> {
@@ -60,6 +70,9 @@ async function readOne({ source, name }: NamedSource, size: ImageSize | undefine
   if (/^\s*[[{]/.test(start)) return readJson(source, size);
   if (/^(%YAML|camera_matrix\s*:)/im.test(start)) return readOpenCv(source, size);
   if (/^P[0-3]:?[ \t]/m.test(start)) return readKitti(source, size);
+  if (/^# 3D point list/im.test(start) || /points3D\.(txt|bin)$/i.test(name)) {
+    throw new FormatProblem("it holds COLMAP's points, not its cameras; readCloud reads points");
+  }
   if (looksBinary(bytes) || /(cameras|images)\.(txt|bin)$|^# (Camera|Image) list/im.test(`${name}\n${start}`)) {
     throw new FormatProblem("COLMAP keeps cameras and images in two files; give both, or their folder");
   }

@@ -98,14 +98,15 @@ function chosenColumns(columns: unknown): Chosen {
 }
 
 function cloudData(file: CloudFile): CloudData {
-  const { positions, crs, packed, notes, axes, areAxesPlain, stations = [] } = file;
+  const { positions, crs, packed, notes, axes, areAxesPlain, stations = [], unread = [] } = file;
   const channels = ["red", "green", "blue"].map((name) => file.columns.find((column) => column.name === name)?.values);
   const [red, green, blue] = channels;
   const colors = packed ?? (red && green && blue ? displayColors([red, green, blue]) : null);
   const unit = crs?.unit ?? file.unit;
   const found = indicesByStation(file).map((indices, i) => ({ viewpoint: stations[i]!.viewpoint, indices }));
   const measured = found.filter(({ indices }) => indices.length > 0);
-  const said = [...notes, ...(axes !== undefined && areAxesPlain !== true ? [axes] : [])];
+  const lost = unread.length > 0 ? [`not read, since they are no single numbers: ${unread.join(", ")}`] : [];
+  const said = [...notes, ...lost, ...(axes !== undefined && areAxesPlain !== true ? [axes] : [])];
   return {
     positions,
     ...(colors && { colors }),

@@ -2,24 +2,31 @@ import { asError, describe, HprError, typeTag } from "../base/errors.js";
 import { hasNodeModules, importNodeModule } from "../base/node.js";
 import { abortError, BY_SIGNAL } from "../worker/abort.js";
 import { FormatProblem } from "../formats/problem.js";
-import { blobSource, bytesSource, type Source } from "../formats/source.js";
+import type { Reading } from "../formats/cloud-file.js";
+import { blobSource, bytesSource, type Source, wholeFile } from "../formats/source.js";
 
 /** A file, or where it is: an address, or a path in Node. */
 export type FileSource = Blob | ArrayBuffer | URL | string;
 
-/** A file, its name, and the folder in which other files of a scene are. */
+/** A file, its name, and how other files of its folder are read. */
 export interface NamedSource {
   source: Source;
   name: string;
-  base?: string;
+  beside?: NonNullable<Reading["beside"]>;
   close: () => Promise<void>;
 }
 
 /** The error for a file that cannot be read. */
 export function refusal(name: string, cause: unknown): HprError {
   if (cause instanceof HprError) return cause;
-  const why = cause instanceof FormatProblem ? cause.message : `it is broken (${asError(cause).message})`;
-  return new HprError("load", `${name} cannot be read: ${why}`, { cause });
+  if (!(cause instanceof FormatProblem)) {
+    return new HprError("load", `${name} cannot be read: it is broken (${asError(cause).message})`, { cause });
+  }
+  const wayOut =
+    cause.rest === undefined
+      ? ""
+      : ` ({ damaged: true } reads ${cause.rest === "anyway" ? "what is there" : "the others"})`;
+  return new HprError("load", `${name} cannot be read: ${cause.message}${wayOut}`, { cause });
 }
 
 const nothing = () => Promise.resolve();
@@ -70,11 +77,19 @@ async function openFile(path: string | URL): Promise<NamedSource> {
       }
       return bytes.subarray(0, at);
     };
-    const { href } = new URL(".", typeof path === "string" ? pathToFileURL(path) : path);
-    return { source: { size, read }, name, base: href, close: () => handle.close() };
+    const folder = new URL(".", typeof path === "string" ? pathToFileURL(path) : path);
+    const beside = async (other: string) => {
+      const { source, close } = await openFile(addressOf(other, folder));
+      return wholeFile(source).finally(close);
+    };
+    return { source: { size, read }, name, beside, close: () => handle.close() };
   } catch (cause) {
     throw new HprError("load", `${name} cannot be read: ${asError(cause).message}`, { cause });
   }
+}
+
+function addressOf(name: string, folder: URL): URL {
+  return new URL(name.split("/").map(encodeURIComponent).join("/"), folder);
 }
 
 async function fetched(url: URL, signal: AbortSignal | undefined): Promise<NamedSource> {
@@ -85,7 +100,11 @@ async function fetched(url: URL, signal: AbortSignal | undefined): Promise<Named
     response = await fetch(url, signal ? { signal } : {});
     if (response.ok) {
       blob = await response.blob();
-      return { source: blobSource(blob), name, base: new URL(".", url).href, close: nothing };
+      const beside = async (other: string) => {
+        const { source } = await fetched(addressOf(other, url), signal);
+        return wholeFile(source);
+      };
+      return { source: blobSource(blob), name, ...(/^https?:$/.test(url.protocol) && { beside }), close: nothing };
     }
   } catch (cause) {
     if (signal?.aborted) throw abortError(BY_SIGNAL);

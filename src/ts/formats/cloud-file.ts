@@ -28,8 +28,8 @@ export interface Reading {
   records?: boolean | undefined;
   /** Whether columns of text are kept in single precision. */
   single?: boolean | undefined;
-  /** The folder of a glTF file, in which its other files are. Without it, they cannot be read. */
-  base?: string | undefined;
+  /** Reads a file in the folder of a glTF file, in which its other files are. Without it, they cannot be read. */
+  beside?: ((name: string) => Promise<Uint8Array<ArrayBuffer>>) | undefined;
   /** Compiles the wasm that reads E57 and LAZ. */
   wasm?: (() => Promise<WebAssembly.Module>) | undefined;
   signal?: AbortSignal | undefined;

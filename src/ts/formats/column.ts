@@ -1,5 +1,8 @@
 import type { NumberType, Values } from "./numbers.js";
 
+/** The names of columns with four bytes of color in one number of PCD. */
+export const PACKED = /^rgba?$/;
+
 /** A file's values besides positions. Columns with the names red, green and blue are colors. */
 export interface Column {
   name: string;

@@ -1,6 +1,9 @@
 import { FormatProblem } from "./problem.js";
 import { blocks, bytesSource, checkByteLength, type Source } from "./source.js";
 
+/** So many bytes are unpacked of any file. Beyond them, no file of points is so many times as large as its packing. */
+const [SURELY, RATIO] = [1 << 26, 100];
+
 /** A file that was packed with gzip, unpacked and without the ending of its name. Any other file as it is. */
 export async function unpacked<File extends { source: Source; name: string }>(file: File): Promise<File> {
   const [first, second] = await file.source.read(0, 2);
@@ -10,6 +13,10 @@ export async function unpacked<File extends { source: Source; name: string }>(fi
   for await (const part of unpackedParts(file.source)) {
     length += part.length;
     checkByteLength(length);
+    if (length > SURELY && length > RATIO * file.source.size) {
+      const times = Math.round(length / file.source.size);
+      throw new FormatProblem(`it is packed with gzip to less than 1/${times} of its size, as no points are`);
+    }
     parts.push(part);
   }
   const whole = new Uint8Array(length);

@@ -3,7 +3,7 @@ import { countIn, type NumberType } from "./numbers.js";
 import { endsEarly, FormatProblem, lineProblem } from "./problem.js";
 import { unpackLzf } from "./lzf.js";
 import { type Axes, type Field, type Group, rowBytes } from "./rows.js";
-import { checkRest, headerLines, type Line, wordsOf } from "./text.js";
+import { headerLines, type Line, restSays, wordsOf } from "./text.js";
 
 /** The largest size of a PCD header in bytes. */
 export const LONGEST_PCD_HEADER = 1 << 16;
@@ -140,6 +140,7 @@ export function unpackPcd(body: Uint8Array, { name, count, fields }: Group): Uin
     throw new FormatProblem(`its compressed data is ${unpacked} bytes long, and its header promises ${size}`);
   }
   if (packed > body.length - 8) throw endsEarly(0, count, name);
-  checkRest(body.subarray(8 + packed), name);
+  const says = restSays(body.subarray(8 + packed), name);
+  if (says !== undefined) throw new FormatProblem(says);
   return unpackLzf(body.subarray(8, 8 + packed), unpacked);
 }

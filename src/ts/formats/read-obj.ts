@@ -19,8 +19,8 @@ export async function readObj(reading: Reading): Promise<CloudFile> {
   }
   if (builder.rows === 0) throw new FormatProblem("it has no vertex lines (“v x y z”)");
   const { columns, ...cloud } = builder.finish();
-  // An OBJ file may have colors for only some vertices.
-  const isColored = columns.every(({ values }) => !values.some(Number.isNaN));
+  // An OBJ file may have colors for some of its vertices.
+  const isColored = columns[0]!.values.some((value) => !Number.isNaN(value));
   return { ...cloud, columns: isColored ? columns : [] };
 }
 
@@ -31,14 +31,13 @@ function putVertex(builder: CloudBuilder, text: string, number: number): void {
   if (![4, 5, 7, 8].includes(words.length)) {
     throw lineProblem(number, `has ${words.length - 1} values, and a vertex has 3, 4, 6 or 7`, line);
   }
-  const [x, y, z] = words.slice(1, 4).map(numberIn);
-  if (x === undefined || y === undefined || z === undefined) {
+  const values = words.slice(1).map(numberIn);
+  if (!values.every((value) => value !== undefined)) {
     throw lineProblem(number, "is not a point, a value is not a number", line);
   }
-  if ([x, y, z].some((value) => isOutOfRange(value))) throw lineProblem(number, "has a number out of range", line);
+  if (values.some((value) => isOutOfRange(value))) throw lineProblem(number, "has a number out of range", line);
   if (!builder.takes()) return;
-  const i = builder.put(x, y, z);
-  for (let channel = 0; channel < 3; channel++) {
-    builder.values[channel]![i] = words.length >= 7 ? Number(words[words.length - 3 + channel]) : NaN;
-  }
+  const i = builder.put(values[0]!, values[1]!, values[2]!);
+  const color = values.length >= 6 ? values.slice(-3) : [NaN, NaN, NaN];
+  color.forEach((value, channel) => (builder.values[channel]![i] = value));
 }

@@ -1,12 +1,11 @@
 import type { CloudFile, Place, Reading } from "./cloud-file.js";
-import type { FilledColumn } from "./column.js";
+import { type FilledColumn, PACKED } from "./column.js";
+import { Contradictions } from "./contradictions.js";
 import { bytesOf, type NumberType } from "./numbers.js";
 import { LONGEST_PCD_HEADER, type PcdHeader, readPcdHeader, unpackPcd } from "./pcd.js";
 import { checkEnd, endOfRows, otherColumns, readBinaryRows, readTextRows } from "./read-rows.js";
 import { fieldsSaid, type Group, listsIn, rowBytes } from "./rows.js";
 import { bytesSource, checkByteLength } from "./source.js";
-
-const COLOR = /^rgba?$/;
 
 /** PCD: text, binary and compressed. */
 export async function readPcd(reading: Reading): Promise<CloudFile> {
@@ -24,13 +23,14 @@ async function readPoints(reading: Reading, { data, points: group, axes, end, li
   // A color has four bytes and may have the type float. Reading it as a float would change the bytes that are not a
   // number.
   const typeOf = (name: string, type: NumberType) =>
-    COLOR.test(name) && data !== "ascii" && bytesOf(type) === 4 ? "uint32" : type;
+    PACKED.test(name) && data !== "ascii" && bytesOf(type) === 4 ? "uint32" : type;
   const points = { group, axes, others: otherColumns(group, axes, (name) => name, typeOf) };
   if (data === "ascii") return readTextRows(reading, { start: end, firstNumber: lines.length + 1 }, [group], points);
   if (data === "binary") {
     const cloud = await readBinaryRows(reading, end, points);
-    await checkEnd(reading.source, await endOfRows(reading, end, group, true), group.name);
-    return cloud;
+    const found = new Contradictions(reading.damaged);
+    await checkEnd(reading.source, await endOfRows(reading, end, group, true, found), group.name, found);
+    return { ...cloud, notes: [...new Set([...cloud.notes, ...found.notes])] };
   }
   const { size } = reading.source;
   checkByteLength(size);
@@ -57,7 +57,7 @@ function interleaved(columns: Uint8Array, { fields, count }: Group): Uint8Array<
 
 /** A color is four bytes in one number. A text may write them as the float with the same bytes. */
 function withoutPacked(cloud: CloudFile): CloudFile {
-  const found = cloud.columns.find(({ name }) => COLOR.test(name));
+  const found = cloud.columns.find(({ name }) => PACKED.test(name));
   if (!found) return cloud;
   return { ...cloud, columns: cloud.columns.filter((column) => column !== found), packed: unpackedColors(found) };
 }

@@ -1,13 +1,9 @@
 import type { CloudFile, Reading } from "./cloud-file.js";
 import { splatColors } from "./colors.js";
+import { Contradictions } from "./contradictions.js";
 import { LONGEST_PLY_HEADER, type PlyHeader, readPlyHeader } from "./ply.js";
 import { checkEnd, endOfRows, otherColumns, type Points, readBinaryRows, readTextRows } from "./read-rows.js";
 import { fieldsSaid, listsIn } from "./rows.js";
-
-/** Other names of colors in some files. */
-const NAMES: Record<string, string> = {
-  r: "red", diffuse_red: "red", g: "green", diffuse_green: "green", b: "blue", diffuse_blue: "blue",
-}; // prettier-ignore
 
 const SPLATS = "it holds Gaussian splats: their centers are read as points, with their base colors";
 
@@ -15,7 +11,11 @@ const SPLATS = "it holds Gaussian splats: their centers are read as points, with
 export async function readPly(reading: Reading): Promise<CloudFile> {
   const header = readPlyHeader(await reading.source.read(0, LONGEST_PLY_HEADER), reading.chosen);
   const { elements, vertices, axes, end, lines } = header;
-  const points = { group: vertices, axes, others: otherColumns(vertices, axes, called) };
+  const points = {
+    group: vertices,
+    axes,
+    others: otherColumns(vertices, axes, (name) => name.replace(/^scalar_/, "")),
+  };
   const cloud =
     header.format === "ascii"
       ? await readTextRows(reading, { start: end, firstNumber: lines.length + 1 }, elements, points)
@@ -29,20 +29,16 @@ export async function readPly(reading: Reading): Promise<CloudFile> {
   };
 }
 
-function called(name: string): string {
-  const lower = name.toLowerCase();
-  return NAMES[lower] ?? (/^(red|green|blue)$/.test(lower) ? lower : name.replace(/^scalar_/, ""));
-}
-
 async function readBinary(reading: Reading, header: PlyHeader, points: Points): Promise<CloudFile> {
   const { format, elements, vertices, end } = header;
   const littleEndian = format === "binary_little_endian";
+  const found = new Contradictions(reading.damaged);
   let at = end;
   let cloud: CloudFile | undefined;
   for (const element of elements) {
     if (element === vertices) cloud = await readBinaryRows(reading, at, points, littleEndian);
-    at = await endOfRows(reading, at, element, littleEndian);
+    at = await endOfRows(reading, at, element, littleEndian, found);
   }
-  await checkEnd(reading.source, at, elements.at(-1)!.name);
-  return cloud!;
+  await checkEnd(reading.source, at, elements.at(-1)!.name, found);
+  return { ...cloud!, notes: [...new Set([...cloud!.notes, ...found.notes])] };
 }

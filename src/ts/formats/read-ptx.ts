@@ -1,5 +1,6 @@
 import { CloudBuilder } from "./builder.js";
 import type { CloudFile, FileStation, Place, Reading } from "./cloud-file.js";
+import { Contradictions } from "./contradictions.js";
 import { countIn, fitsType, isOutOfRange, numberIn } from "./numbers.js";
 import { endsEarly, FormatProblem, lineProblem } from "./problem.js";
 import { step } from "./read-rows.js";
@@ -31,6 +32,7 @@ export async function readPtx(reading: Reading): Promise<CloudFile> {
   let builder: CloudBuilder | undefined;
   let width = 0;
   let scan: Scan | undefined;
+  const found = new Contradictions(reading.damaged);
   for await (const { texts, number, end } of lines(await textOf(reading), 0)) {
     for (const [i, text] of texts.entries()) {
       const line = trimmed(text);
@@ -43,40 +45,31 @@ export async function readPtx(reading: Reading): Promise<CloudFile> {
         head.length = 0;
         continue;
       }
-      const words = wordsOf(line);
       if (builder === undefined) {
-        width = words.length;
+        width = wordsOf(line).length;
         if (![3, 4, 7].includes(width)) {
           throw lineProblem(number + i, `has ${width} values, and a point has 4 or 7`, line);
         }
         builder = new CloudBuilder("float64", columnsOf(width), reading, null);
       }
-      if (words.length !== width) {
-        throw lineProblem(number + i, `has ${words.length} values, and lines above have ${width}`, line);
-      }
-      const values = words.map((word) => valueIn(word, number + i, line));
-      if (!values.slice(4).every((value) => fitsType(value, "uint8"))) {
-        throw lineProblem(number + i, "has a color that is not from 0 to 255", line);
-      }
       scan.read++;
-      if (!builder.takes()) continue;
+      const values = valuesOf(line, number + i, width, found);
+      if (values === undefined || !builder.takes()) continue;
       const at = builder.put(...placed(values, scan.matrix));
       builder.values[0]![at] = stations.length - 1;
       for (let k = 3; k < width; k++) builder.values[k - 2]![at] = values[k]!;
     }
     step(reading, end);
   }
-  if (head.length > 0) {
-    throw new FormatProblem(`it ends after ${head.length} of the ${WIDTHS.length} lines above a scan`);
-  }
-  if (scan && scan.read < scan.count) throw endsEarly(scan.read, scan.count, "points");
+  if (head.length > 0) found.add(`it ends after ${head.length} of the ${WIDTHS.length} lines above a scan`);
+  if (scan && scan.read < scan.count) found.add(endsEarly(scan.read, scan.count, "points").message);
   if (builder === undefined) throw new FormatProblem("it has no points");
   const cloud = builder.finish();
   const columns = scanColumns(
     cloud.columns,
     stations.map(({ name }) => name),
   );
-  return { ...cloud, columns, isGrid: true, up: "z", stations };
+  return { ...cloud, notes: [...found.notes, ...cloud.notes], columns, isGrid: true, up: "z", stations };
 }
 
 function columnsOf(width: number) {
@@ -108,6 +101,23 @@ function scanOf(head: readonly number[][], number: number): Scan {
 /** The scanner stands at the origin of its points. If they were moved already, the third line says where. */
 function viewpointOf(head: readonly number[][], { matrix }: Scan): Place {
   return matrix.join() === IDENTITY ? (head[2] as Place) : (matrix.slice(12, 15) as Place);
+}
+
+/** The numbers of a point. Undefined if the line is left out. */
+function valuesOf(line: string, number: number, width: number, found: Contradictions): number[] | undefined {
+  try {
+    const words = wordsOf(line);
+    if (words.length !== width) {
+      throw lineProblem(number, `has ${words.length} values, and lines above have ${width}`, line);
+    }
+    const values = words.map((word) => valueIn(word, number, line));
+    if (!values.slice(4).every((value) => fitsType(value, "uint8"))) {
+      throw lineProblem(number, "has a color that is not from 0 to 255", line);
+    }
+    return values;
+  } catch (error) {
+    return found.leaveOut(error);
+  }
 }
 
 function valueIn(word: string, number: number, line: string): number {

@@ -2,13 +2,14 @@
 import { CloudBuilder } from "./builder.js";
 import { checkByteOrder, ORDER_SAMPLE } from "./byte-order.js";
 import type { CloudFile, Reading, Records } from "./cloud-file.js";
-import type { Column } from "./column.js";
+import { type Column, PACKED } from "./column.js";
 import { fitSingle, numberReader, type NumberReader, type NumberType } from "./numbers.js";
-import { endsEarly } from "./problem.js";
+import { Contradictions } from "./contradictions.js";
+import { endsEarly, FormatProblem } from "./problem.js";
 import { type Axes, type Group, hasLists, rowBytes, walkRow } from "./rows.js";
 import { BLOCK, blocks, lines, type Source, viewOf } from "./source.js";
 import { TextRows } from "./text-rows.js";
-import { checkRest } from "./text.js";
+import { restSays } from "./text.js";
 
 /** A file's points, and the other fields that become columns. */
 export interface Points {
@@ -17,10 +18,17 @@ export interface Points {
   others: readonly (Column & { field: number })[];
 }
 
-export function builderFor(reading: Reading, { group, axes, others }: Points): CloudBuilder {
-  // If the type of a field is a four-byte float, it is read as such, even if a text has more digits.
+function builderFor(reading: Reading, { group, axes, others }: Points): CloudBuilder {
   const single = fitSingle(axes.map((axis) => group.fields[axis]!.type));
   return new CloudBuilder(single ? "float32" : "float64", others, reading, group.count);
+}
+
+/** A text may have more digits than the floats of its header. Colors are the bytes of a float. */
+function builderForText(reading: Reading, { group, others }: Points): CloudBuilder {
+  const columns = others.map((other): Column =>
+    other.type === "float32" && !PACKED.test(other.name) ? { ...other, type: "float64" } : other,
+  );
+  return new CloudBuilder("float64", columns, reading, group.count);
 }
 
 /** Reports the progress of reading, and ends it if that is asked for. */
@@ -38,39 +46,56 @@ export async function readTextRows(
   points: Points,
 ): Promise<CloudFile> {
   const { group, axes, others } = points;
+  const found = new Contradictions(reading.damaged);
   const rows = new TextRows(groups, group, axes);
-  const builder = builderFor(reading, points);
+  const builder = builderForText(reading, points);
+  const taken = (text: string, number: number) => {
+    try {
+      const point = rows.take(text, number);
+      return point && { position: point.position, values: others.map(({ field }) => point.value(field)) };
+    } catch (error) {
+      return found.leaveOut(error);
+    }
+  };
   for await (const { texts, number, end, places } of lines(reading.source, start, firstNumber)) {
     const at = reading.records ? places() : undefined;
     for (let line = 0; line < texts.length; line++) {
-      const point = rows.take(texts[line]!, number + line);
+      const point = taken(texts[line]!, number + line);
       if (point === undefined || !builder.takes()) continue;
       const i = builder.put(...point.position);
       if (at) builder.place(i, at[line]!, at[line + 1]!);
-      for (let k = 0; k < others.length; k++) {
-        builder.values[k]![i] = Number(point.words[point.starts[others[k]!.field]!]);
-      }
+      for (let k = 0; k < others.length; k++) builder.values[k]![i] = point.values[k]!;
     }
     step(reading, end);
   }
-  rows.finish();
-  return builder.finish();
+  rows.finish(found);
+  return noted(builder.finish(), found);
+}
+
+function noted(cloud: CloudFile, found: Contradictions): CloudFile {
+  if (cloud.rows === 0 && found.notes.length > 0) throw new FormatProblem(found.notes.join("; "));
+  return { ...cloud, notes: [...found.notes, ...cloud.notes] };
 }
 
 /** Reads binary rows from `start` on. */
 export async function readBinaryRows(
   reading: Reading,
   start: number,
-  points: Points,
+  given: Points,
   littleEndian = true,
 ): Promise<CloudFile> {
   const { source } = reading;
-  const { group, axes, others } = points;
-  const { count, fields } = group;
+  const { axes, others } = given;
+  const found = new Contradictions(reading.damaged);
+  const { fields } = given.group;
   const size = rowBytes(fields);
-  const found = Math.floor((source.size - start) / size);
+  const stored = Math.max(0, Math.floor((source.size - start) / size));
+  const isCut = stored < given.group.count;
   // This check comes before memory is allocated, because a header may promise any number of rows.
-  if (found < count) throw endsEarly(found, count, group.name);
+  if (isCut) found.add(endsEarly(stored, given.group.count, given.group.name).message);
+  const points = isCut ? { ...given, group: { ...given.group, count: stored } } : given;
+  const { group } = points;
+  const { count } = group;
   const sample = await source.read(start, start + Math.min(count, ORDER_SAMPLE) * size);
   checkByteOrder(viewOf(sample), fields, axes, littleEndian);
 
@@ -87,17 +112,17 @@ export async function readBinaryRows(
     return i;
   };
   if (lists) {
-    await eachListRow(reading, start, group, littleEndian, (view, starts, place, end) => {
+    await eachListRow(reading, start, group, littleEndian, found, (view, starts, place, end) => {
       if (!builder.takes()) return;
       const i = put(view, (field) => starts[field]!);
       if (reading.records) builder.place(i, place, end);
     });
-    return builder.finish();
+    return noted(builder.finish(), found);
   }
   await eachRow(reading, { start, rowBytes: size, count }, (view, at) => {
     if (builder.takes()) put(view, () => at);
   });
-  return { ...builder.finish(), records: equalRecords(undefined, start, size) };
+  return { ...noted(builder.finish(), found), records: equalRecords(undefined, start, size) };
 }
 
 /** Records of the same size, one after another. */
@@ -123,12 +148,13 @@ export async function eachRow(
   }
 }
 
-/** Walks over rows with lists, and returns where they end. */
+/** Walks over rows with lists, and returns where they end: at the end of the file, if it is cut. */
 export async function eachListRow(
   reading: Reading,
   start: number,
   group: Group,
   littleEndian: boolean,
+  found: Contradictions,
   onRow: (view: DataView, starts: readonly number[], place: number, end: number) => void,
 ): Promise<number> {
   const { source } = reading;
@@ -145,7 +171,10 @@ export async function eachListRow(
       row++;
       continue;
     }
-    if (blockStart + view.byteLength >= source.size) throw endsEarly(row, group.count, group.name);
+    if (blockStart + view.byteLength >= source.size) {
+      found.add(endsEarly(row, group.count, group.name).message);
+      return source.size;
+    }
     // A row that does not fit into a block needs a longer block.
     if (at === 0) length *= 2;
     blockStart += at;
@@ -156,20 +185,27 @@ export async function eachListRow(
   return blockStart + at;
 }
 
-/** The place where the rows of a group end. */
-export async function endOfRows(reading: Reading, start: number, group: Group, littleEndian: boolean): Promise<number> {
+/** The place where the rows of a group end: at the end of the file, if it is cut. */
+export async function endOfRows(
+  reading: Reading,
+  start: number,
+  group: Group,
+  littleEndian: boolean,
+  found: Contradictions,
+): Promise<number> {
   const { name, count, fields } = group;
-  if (hasLists(fields)) return eachListRow(reading, start, group, littleEndian, () => undefined);
+  if (hasLists(fields)) return eachListRow(reading, start, group, littleEndian, found, () => undefined);
   const { size } = reading.source;
   const length = rowBytes(fields);
   const end = start + length * count;
-  if (end > size) throw endsEarly(Math.floor((size - start) / length), count, name);
-  return end;
+  if (end > size) found.add(endsEarly(Math.max(0, Math.floor((size - start) / length)), count, name).message);
+  return Math.min(end, size);
 }
 
 /** Checks one block after the last row: if a header lacks a field, much data is left over. */
-export async function checkEnd({ read }: Source, end: number, what: string): Promise<void> {
-  checkRest(await read(end, end + BLOCK), what);
+export async function checkEnd({ read }: Source, end: number, what: string, found: Contradictions): Promise<void> {
+  const says = restSays(await read(end, end + BLOCK), what);
+  if (says !== undefined) found.add(says);
 }
 
 /** A column for each field that is a single number and not x, y or z. */

@@ -6,9 +6,9 @@ import { type Separator, separatorOf, split } from "./table-words.js";
 
 /** The names of x, y and z: the exact ones, other usual ones, and letters of surveyors. */
 const CALLED = [
-  [/^x$/, /^(px|pos_?x|x_?pos|points:0|easting|east)$/, /^e$/],
-  [/^y$/, /^(py|pos_?y|y_?pos|points:1|northing|north)$/, /^n$/],
-  [/^z$/, /^(pz|pos_?z|z_?pos|points:2|elevation|height|altitude|up)$/, /^h$/],
+  [/^x$/, /^(px|pos_?x|x_?pos|points(_m_xyz)?:0|easting|east)$/, /^e$/],
+  [/^y$/, /^(py|pos_?y|y_?pos|points(_m_xyz)?:1|northing|north)$/, /^n$/],
+  [/^z$/, /^(pz|pos_?z|z_?pos|points(_m_xyz)?:2|elevation|elev|height|altitude|up)$/, /^h$/],
 ];
 const LENGTH = /^[[(]?(m|mm|cm|dm|km|um|µm|ft|feet|foot|in|inch|inches|us-?ft|ftus|yd|met(er|re)s?)?[\])]?$/i;
 const UNIT = /[[(]([^\])]*)[\])]$|[ _.-](m|mm|cm|km|ft|met(?:er|re)s?)$/i;
@@ -54,7 +54,7 @@ export function axesIn({ written, bare }: Names, chosen?: ChosenColumns): Axes |
     bare.flatMap((name, column) => (pattern?.test(name) === true ? [column] : []));
   // If there are columns x, y and z, all other columns are ignored. Otherwise, only one column may
   // have a name for each axis.
-  const found = [[0], [0, 1], [2]]
+  const found = [[0], [0, 1], [2], [0, 1, 2]]
     .map((kinds) => CALLED.map((patterns) => kinds.flatMap((kind) => placesOf(patterns[kind]))))
     .find((axes) => axes.every(({ length }) => length > 0));
   if (found === undefined) return undefined;

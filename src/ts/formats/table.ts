@@ -1,4 +1,5 @@
 import { type ChosenColumns, isNumber } from "./axes.js";
+import type { Contradictions } from "./contradictions.js";
 import { isOutOfRange } from "./numbers.js";
 import { FormatProblem, lineProblem } from "./problem.js";
 import type { Axes } from "./rows.js";
@@ -81,11 +82,11 @@ export class TableRows {
   }
 
   /** Must be called after the last line. */
-  finish(): void {
+  finish(found: Contradictions): void {
     if (this.#count === 0) throw new FormatProblem("it has no line of three numbers");
     if (this.#promised !== undefined && this.#promised.count !== this.#count) {
       const { line, count } = this.#promised;
-      throw lineProblem(line, `promises ${count} points, and there are ${this.#count}`);
+      found.add(`line ${line} promises ${count} points, and there are ${this.#count}`);
     }
   }
 
@@ -192,11 +193,13 @@ function areCommasUnclear(line: string): boolean {
 }
 
 /**
- * Whether the first column numbers the points: it has consecutive integers, and three more columns are numbers. Where y is
+ * Whether the first column numbers the points: it has consecutive integers, and three more columns are numbers. Rising
+ * integers with gaps are numbers of points if all numbers in the three columns have decimals. Where y is
  * the same everywhere, the points may be a row of a grid, and where six columns end with bytes, these are colors.
  */
 function areNumbered(rows: readonly string[][]): boolean {
   const [first] = rows;
+  const hasGaps = rows.every((row) => [1, 2, 3].every((column) => cell(row[column] ?? "")?.decimal !== undefined));
   return (
     first !== undefined &&
     first.length > 3 &&
@@ -204,7 +207,8 @@ function areNumbered(rows: readonly string[][]): boolean {
     rows.every(
       (row, i) =>
         /^\d+$/.test(row[0]!) &&
-        Number(row[0]) === Number(first[0]) + i &&
+        (Number(row[0]) === Number(first[0]) + i ||
+          (hasGaps && (i === 0 || Number(row[0]) > Number(rows[i - 1]![0])))) &&
         [1, 2, 3].every((column) => cell(row[column] ?? "") !== undefined),
     ) &&
     rows.some((row) => row[1] !== first[1]) &&

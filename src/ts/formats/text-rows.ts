@@ -1,4 +1,5 @@
 import { countIn, fitsType, isOutOfRange, numberIn } from "./numbers.js";
+import type { Contradictions } from "./contradictions.js";
 import { endsEarly, lineProblem } from "./problem.js";
 import { type Axes, type Field, type Group, hasLists } from "./rows.js";
 import { trimmed, wordsOf } from "./text.js";
@@ -6,9 +7,8 @@ import { trimmed, wordsOf } from "./text.js";
 /** A point of a text file. */
 export interface TextPoint {
   position: readonly [number, number, number];
-  words: readonly string[];
-  /** For each field, the index of its first word. */
-  starts: readonly number[];
+  /** The number of a field. */
+  value: (field: number) => number;
 }
 
 /**
@@ -37,15 +37,15 @@ export class TextRows {
     const words = wordsOf(line);
     const starts = startsIn(group.fields, words, number, line);
     if (group !== this.#points) return undefined;
-    const position = this.#axes.map((axis) => this.#coordinate(words[starts[axis]!]!, axis, number, line));
-    return { position: position as [number, number, number], words, starts };
+    const value = (field: number) => this.#number(words[starts[field]!]!, field, number, line);
+    return { position: this.#axes.map(value) as [number, number, number], value };
   }
 
   /** Must be called after the last line. */
-  finish(): void {
+  finish(found: Contradictions): void {
     while (this.#group < this.#groups.length) {
       const { name, count } = this.#groups[this.#group]!;
-      if (!this.#isDone()) throw endsEarly(this.#row, count, name);
+      if (!this.#isDone()) found.add(endsEarly(this.#row, count, name).message);
       this.#next();
     }
   }
@@ -61,11 +61,12 @@ export class TextRows {
     this.#row = 0;
   }
 
-  #coordinate(word: string, axis: number, number: number, line: string): number {
+  /** A text keeps all digits, also where its header says that the number is a float. */
+  #number(word: string, field: number, number: number, line: string): number {
     const value = numberIn(word);
-    const { name, type } = this.#points.fields[axis]!;
+    const { name, type } = this.#points.fields[field]!;
     if (value === undefined) throw lineProblem(number, `is not a point, its ${name} is not a number`, line);
-    if (isOutOfRange(value, type)) throw lineProblem(number, `has a ${name} that is out of range`, line);
+    if (isOutOfRange(value)) throw lineProblem(number, `has a ${name} that is out of range`, line);
     if (!fitsType(value, type)) throw lineProblem(number, `is not a point, its ${name} is not of type ${type}`, line);
     return value;
   }

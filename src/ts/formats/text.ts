@@ -1,4 +1,4 @@
-import { FormatProblem, lineProblem, several } from "./problem.js";
+import { type FormatProblem, lineProblem, several } from "./problem.js";
 
 /** A line of a file: the place where it begins, and the place where the next one begins. */
 export interface Line {
@@ -57,8 +57,8 @@ export function* headerLines(start: Uint8Array): Generator<Line> {
   }
 }
 
-/** A file may end in blanks or zeros, which some programs add. Any other content is refused. */
-export function checkRest(rest: Uint8Array, name: string): void {
+/** A file may end in blanks or zeros, which some programs add. Of any other content, a sentence is returned. */
+export function restSays(rest: Uint8Array, name: string): string | undefined {
   const blank = rest.every((byte) => byte === 0 || byte === 0x20 || (byte >= 0x09 && byte <= 0x0d));
-  if (!blank) throw new FormatProblem(`it goes on after the last of the ${several(name)} that its header promises`);
+  return blank ? undefined : `it goes on after the last of the ${several(name)} that its header promises`;
 }

@@ -2,12 +2,9 @@ import { extname } from "node:path";
 
 import type { ChosenColumns } from "../../formats/axes.js";
 import type { CloudFile, Reading } from "../../formats/cloud-file.js";
-import { readLas } from "../../formats/las/read-las.js";
-import { readE57 } from "../../formats/e57.js";
-import { readPcd } from "../../formats/read-pcd.js";
-import { readPly } from "../../formats/read-ply.js";
-import { readPtx } from "../../formats/read-ptx.js";
-import { readTable } from "../../formats/read-table.js";
+import { DEGREES } from "../../formats/las/read-las.js";
+import { FormatProblem } from "../../formats/problem.js";
+import { type Format as Holds, readFile } from "../../formats/read.js";
 import { bytesSource } from "../../formats/source.js";
 import { compileFiles } from "../../files/wasm.js";
 import { CONVERTED } from "./convert.js";
@@ -18,7 +15,8 @@ import type { Frame, PointFile } from "./point-file.js";
 import { tableFrame } from "./table.js";
 
 interface Format {
-  read: (reading: Reading) => Promise<CloudFile>;
+  /** What the file must hold. */
+  holds: Holds;
   frame?: (file: Buffer, cloud: CloudFile, chosen?: ChosenColumns) => Frame;
   /** Whether the user can choose the columns. */
   hasColumns: boolean;
@@ -26,17 +24,17 @@ interface Format {
   written: readonly string[];
 }
 
-const PLY: Format = { read: readPly, frame: plyFrame, hasColumns: true, written: [".ply"] };
-const PCD: Format = { read: readPcd, frame: pcdFrame, hasColumns: true, written: [".pcd"] };
-const LAS: Format = { read: readLas, frame: lasFrame, hasColumns: false, written: [".las"] };
+const PLY: Format = { holds: "ply", frame: plyFrame, hasColumns: true, written: [".ply"] };
+const PCD: Format = { holds: "pcd", frame: pcdFrame, hasColumns: true, written: [".pcd"] };
+const LAS: Format = { holds: "las", frame: lasFrame, hasColumns: false, written: [".las"] };
 const TABLE: Format = {
-  read: readTable,
+  holds: "table",
   frame: tableFrame,
   hasColumns: true,
   written: [".xyz", ".txt", ".csv", ".pts"],
 };
-const E57: Format = { read: readE57, hasColumns: false, written: [] };
-const PTX: Format = { read: readPtx, hasColumns: false, written: [] };
+const E57: Format = { holds: "e57", hasColumns: false, written: [] };
+const PTX: Format = { holds: "ptx", hasColumns: false, written: [] };
 
 /** The formats that can be read, by the ending of a file's name. The ending of COPC is .copc.laz. */
 export const FORMATS: Record<string, Format> = {
@@ -65,13 +63,23 @@ export function writtenAs(input: string, output: string): { ending: string; isCo
   return isCopy || CONVERTED.includes(ending) ? { ending, isCopy } : undefined;
 }
 
+const SAID: Readonly<Record<Holds, string>> = {
+  ply: "PLY", pcd: "PCD", las: "LAS", e57: "E57", ptx: "PTX", obj: "OBJ", gltf: "glTF", table: "a table",
+}; // prettier-ignore
+
 /** Reads the points of a file, with the bytes of each. */
 export async function readPoints(
-  { read, frame }: Format,
+  name: string,
   file: Buffer<ArrayBuffer>,
   { chosen, damaged }: Pick<Reading, "chosen" | "damaged">,
 ): Promise<PointFile> {
-  const cloud = await read({ name: "", source: bytesSource(file), records: true, chosen, damaged, wasm: compileFiles });
+  const { holds, frame } = FORMATS[endingOf(name)]!;
+  const source = bytesSource(file);
+  const cloud = await readFile({ name, source, records: true, chosen, damaged, wasm: compileFiles });
+  if (cloud.format !== holds) {
+    throw new FormatProblem(`it is ${SAID[cloud.format]}, and its name says ${SAID[holds]}; give it another ending`);
+  }
+  if (cloud.crs?.isAngular) throw new FormatProblem(DEGREES);
   const records = { ...cloud.records, bytes: cloud.records.bytes ?? file };
   return { ...cloud, ...frame?.(file, { ...cloud, records }, chosen), records };
 }

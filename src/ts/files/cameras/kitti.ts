@@ -36,7 +36,13 @@ export async function readKitti(source: Source, size: ImageSize = USUAL_SIZE): P
   for (const number of [0, 1, 2, 3]) {
     const matrix = found.get(`P${number}`);
     if (matrix === undefined) continue;
-    const [fx, , u, x, , fy, v, y, , , , z] = matrix.numbers as [number, ...number[]] & Record<number, number>;
+    const [fx, skew, u, x, a, fy, v, y, b, c, d, z] = matrix.numbers as [number, ...number[]] & Record<number, number>;
+    if (skew !== 0 || a !== 0 || b !== 0 || c !== 0 || d !== 1) {
+      throw lineProblem(
+        matrix.line,
+        `has a P${number} with a skew, or a third row that is not 0 0 1, which is not read`,
+      );
+    }
     // The first pixel's center is at 0 there.
     const lens = checked({ fx, fy: fy!, cx: u! + 0.5, cy: v! + 0.5, ...size }, (says) =>
       lineProblem(matrix.line, says),

@@ -17,9 +17,11 @@ export async function readOpenCv(source: Source, size: ImageSize | undefined): P
   const fields = await fieldsOf(source);
   const matrix = numbersOf(fields, "camera_matrix", [9]);
   if (matrix === undefined) throw new FormatProblem("it has no camera_matrix");
-  const [fx, skew, cx, , fy, cy] = matrix.numbers as [number, number, number, number, number, number];
+  const [fx, skew, cx, left, fy, cy, ...third] = matrix.numbers as [number, number, number, number, number, number];
   const refuse = (says: string) => lineProblem(matrix.line, says);
-  if (skew !== 0) throw refuse(`has ${skew} for the skew of camera_matrix, which must be 0`);
+  if (skew !== 0 || left !== 0) throw refuse(`has ${skew || left} for the skew of camera_matrix, which must be 0`);
+  if (third.join() !== "0,0,1")
+    throw refuse(`has ${third.join(" ")} for the third row of camera_matrix, which must be 0 0 1`);
   const one = (name: string) => numbersOf(fields, name, [1])?.numbers[0];
   const [width, height] = [one("image_width") ?? size?.width, one("image_height") ?? size?.height];
   if (width === undefined || height === undefined) {

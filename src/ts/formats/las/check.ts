@@ -1,7 +1,8 @@
 // Where a LAS file contradicts itself: its header, the places of its points, and the points.
 import type { Contradictions } from "../contradictions.js";
-import type { Source } from "../source.js";
+import { type Source, viewOf } from "../source.js";
 import type { LasDetails } from "./details.js";
+import { LAS_RECORD_HEADER } from "./header.js";
 import { lasEndsEarly } from "./laz.js";
 
 type Triple = readonly [number, number, number];
@@ -16,7 +17,7 @@ const number = new Intl.NumberFormat("en-US");
 export function checkCounts({ minor, count, head }: LasDetails, found: Contradictions): void {
   const old = head.getUint32(107, true);
   if (minor === 4 && old > 0 && old !== count) {
-    found.add(`its header promises ${count} points, and ${old} in its older field`);
+    found.note(`its header promises ${count} points, and ${old} in its older field`);
   }
 }
 
@@ -25,24 +26,40 @@ export function checkCounts({ minor, count, head }: LasDetails, found: Contradic
  * unless it is filled with zeros.
  */
 export async function countStored(header: LasDetails, source: Source, found: Contradictions): Promise<number> {
-  const { count, rowBytes, start, minor, head } = header;
+  const { count, rowBytes, start, head } = header;
   const stored = Math.floor((source.size - start) / rowBytes);
   if (stored < count) {
     found.add(lasEndsEarly(count).message);
     return stored;
   }
-  // Records may follow since version 1.3: the wave forms, and those of 1.4.
-  const after = [minor >= 3 ? 227 : 0, minor === 4 ? 235 : 0]
-    .map((at) => (at === 0 ? 0 : Number(head.getBigUint64(at, true))))
-    .filter((at) => at > 0);
   const end = start + count * rowBytes;
-  const next = Math.min(source.size, ...after);
-  if (next < end) found.add("the records after its points begin among them");
+  let next = source.size;
+  for (const at of placesAfter(header, head)) {
+    if (at >= end) next = Math.min(next, at);
+    else if (await isRecordAt(at, source)) found.add("the records after its points begin among them");
+    else found.note("its header says that records begin among its points, and there are none");
+  }
   const rest = await source.read(end, Math.min(next, end + rowBytes));
   if (rest.length >= rowBytes && rest.some((byte) => byte !== 0)) {
     found.add(`it goes on after the ${number.format(count)} points that its header promises`);
   }
   return count;
+}
+
+/** Where records may follow the points: the wave forms since version 1.3, and those of 1.4 if there are any. */
+function placesAfter({ minor }: LasDetails, head: DataView): number[] {
+  const waves = minor >= 3 ? Number(head.getBigUint64(227, true)) : 0;
+  const records = minor === 4 && head.getUint32(243, true) > 0 ? Number(head.getBigUint64(235, true)) : 0;
+  return [waves, records].filter((at) => at > 0);
+}
+
+/** Whether a record begins at a place: the name of its program, and a length that fits. */
+async function isRecordAt(at: number, { size, read }: Source): Promise<boolean> {
+  const head = await read(at, at + LAS_RECORD_HEADER.after);
+  if (head.length < LAS_RECORD_HEADER.after) return false;
+  const name = new TextDecoder("latin1").decode(head.subarray(2, 18));
+  const length = Number(viewOf(head).getBigUint64(20, true));
+  return /^[A-Za-z][ -~]*\0*$/.test(name) && at + head.length + length <= size;
 }
 
 /** Compares points with the box in the header. */
@@ -85,7 +102,7 @@ export class BoxCheck {
     if (this.#outside > 0) {
       found.add(`${number.format(this.#outside)} of its points lie outside the bounds that its header gives`);
     } else if (isWhole && AXES.some((axis) => this.#isForeign(axis))) {
-      found.add("the bounds in its header belong to other coordinates than its points have");
+      found.note("the bounds in its header are wider than its points, and on no grid of theirs");
     }
   }
 

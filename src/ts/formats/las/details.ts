@@ -146,18 +146,22 @@ function extraColumns(view: DataView, { at, length }: LasRecord, from: number, r
   for (let record = at; record + EXTRA_RECORD <= at + length; record += EXTRA_RECORD) {
     const kind = view.getUint8(record + 2);
     const options = view.getUint8(record + 3);
-    const type = EXTRA_TYPES[kind];
-    const size = kind === 0 ? options : type ? bytesOf(type) : kind <= 8 ? 8 : 0;
-    // Types of several numbers are deprecated, and the place of the next field is unknown then.
-    if (size === 0 || offset + size > rowBytes) break;
-    if (type) {
-      const scale = options & 8 ? view.getFloat64(record + 112, true) : 1;
-      const shift = options & 16 ? view.getFloat64(record + 136, true) : 0;
-      const read = numberReader(type, offset, true);
-      const name = textAt(view, record + 4, 32).trim() || "extra";
+    // Types from 11 on are two, and from 21 on three numbers of the types from 1 to 10. They are deprecated, but written.
+    const type = EXTRA_TYPES[kind > 10 ? ((kind - 1) % 10) + 1 : kind];
+    const numbers = kind > 20 ? 3 : kind > 10 ? 2 : 1;
+    const size = kind === 0 ? options : type ? numbers * bytesOf(type) : 0;
+    if (size === 0 || kind > 30 || offset + size > rowBytes) break;
+    const name = textAt(view, record + 4, 32).trim() || "extra";
+    for (let i = 0; type && i < numbers; i++) {
+      const scale = options & 8 ? view.getFloat64(record + 112 + 8 * i, true) : 1;
+      const shift = options & 16 ? view.getFloat64(record + 136 + 8 * i, true) : 0;
+      const read = numberReader(type, offset + i * bytesOf(type), true);
+      const called = numbers > 1 ? `${name} ${i + 1}` : name;
       const plain = scale === 1 && shift === 0;
       columns.push(
-        plain ? { name, type, read } : { name, type: "float64", read: (row, i) => read(row, i) * scale + shift },
+        plain
+          ? { name: called, type, read }
+          : { name: called, type: "float64", read: (row, place) => read(row, place) * scale + shift },
       );
     }
     offset += size;

@@ -137,7 +137,7 @@ function recordOf({ format, rowBytes, records }: LasHeader, head: DataView) {
  * The chunks of a damaged file without a usable table are looked for one after another.
  */
 export async function openLaz(
-  module: WebAssembly.Module,
+  module: () => Promise<WebAssembly.Module>,
   header: LasHeader,
   source: Source,
   head: DataView,
@@ -145,12 +145,15 @@ export async function openLaz(
 ): Promise<{ decoder: LazDecoder; chunks: Chunk[] }> {
   const { start, count } = header;
   const { version, isOne, size } = recordOf(header, head);
-  const decoder = new LazDecoder(module, header, version);
+  const place = isOne ? 0 : await placeOfTable(header, source);
+  // A file that is cut is refused before the wasm is loaded.
+  if (place === undefined) found.add(lasEndsEarly(count).message);
+  const decoder = new LazDecoder(await module(), header, version);
   if (isOne) return { decoder, chunks: [{ offset: start, length: source.size - start, count }] };
   const isVariable = VARIABLE.includes(size);
-  const table = await readTable(header, source, isVariable, decoder);
-  if ("says" in table) {
-    found.add(table.says);
+  const table = place === undefined ? undefined : await readTable(header, source, place, isVariable, decoder);
+  if (table === undefined) {
+    if (place !== undefined) found.add("the table of its compressed chunks contradicts the places of the chunks");
     return { decoder, chunks: await chunksWithoutTable(header, source, isVariable ? count : size) };
   }
   const { lengths, counts } = table;
@@ -168,30 +171,33 @@ export async function openLaz(
   return { decoder, chunks };
 }
 
-/** The lengths and, if they differ, the numbers of points of all chunks; or how the table contradicts the file. */
+/** Where the table of chunks is; undefined if the file ends before it. */
+async function placeOfTable({ start }: LasHeader, { size, read }: Source): Promise<number | undefined> {
+  const place = async (at: number) => {
+    const part = await read(at, at + 8);
+    return part.length < 8 ? 0 : Number(viewOf(part).getBigInt64(0, true));
+  };
+  const first = await place(start);
+  // A program that writes to a stream stores the table's place at the very end.
+  const at = first === -1 ? await place(size - 8) : first;
+  return at < start + 8 || at + 8 > size ? undefined : at;
+}
+
+/** The lengths and, if they differ, the numbers of points of all chunks. Undefined if they do not fill the place before. */
 async function readTable(
   { start, count }: LasHeader,
   source: Source,
+  at: number,
   isVariable: boolean,
   decoder: LazDecoder,
-): Promise<NonNullable<ReturnType<LazDecoder["table"]>> | { says: string }> {
-  const number = async (place: number) => {
-    const part = await source.read(place, place + 8);
-    return part.length < 8 ? undefined : viewOf(part);
-  };
-  const place = async (at: number) => Number((await number(at))?.getBigInt64(0, true) ?? 0);
-  const first = await place(start);
-  // A program that writes to a stream stores the table's place at the very end.
-  const at = first === -1 ? await place(source.size - 8) : first;
-  const top = at < start + 8 ? undefined : await number(at);
-  if (top === undefined) return { says: lasEndsEarly(count).message };
+): Promise<ReturnType<LazDecoder["table"]>> {
+  const top = viewOf(await source.read(at, at + 8));
   const chunks = top.getUint32(4, true);
-  const says = "the table of its compressed chunks contradicts the places of the chunks";
   // Each chunk holds a point.
-  if (top.getUint32(0, true) !== 0 || chunks > Math.min(count, MOST_CHUNKS)) return { says };
+  if (top.getUint32(0, true) !== 0 || chunks > Math.min(count, MOST_CHUNKS)) return undefined;
   const table = decoder.table(await source.read(at, at + 8 + 16 * chunks + 64), isVariable);
   const end = table?.lengths.reduce((sum, length) => sum + length, start + 8);
-  return end === at ? table! : { says };
+  return end === at ? table : undefined;
 }
 
 /** Layered chunks follow one another and say their lengths. Of the older ones, only the beginning of the first is known. */

@@ -9,6 +9,9 @@ import { lasPosition } from "./header.js";
 import { moduleOf } from "../wasm.js";
 import { lazDamaged, openLaz } from "./laz.js";
 
+export const DEGREES =
+  "its x and y are degrees of longitude and latitude: project them to meters first, for example to UTM";
+
 /** LAS, LAZ and COPC, in the order of the file. */
 export async function readLas(reading: Reading): Promise<CloudFile> {
   const header = await readLasDetails(reading.source);
@@ -29,7 +32,7 @@ export async function readLas(reading: Reading): Promise<CloudFile> {
 async function readLaz(header: LasDetails, reading: Reading, found: Contradictions): Promise<CloudFile> {
   const { source, onProgress, signal } = reading;
   const { rowBytes, count } = header;
-  const { decoder, chunks } = await openLaz(await moduleOf(reading), header, source, header.head, found);
+  const { decoder, chunks } = await openLaz(() => moduleOf(reading), header, source, header.head, found);
   const taker = new RecordTaker(header, reading, found, count);
   let rows = new Uint8Array();
   let taken = 0;
@@ -80,6 +83,7 @@ export class RecordTaker {
   finish(isWhole: boolean): CloudFile {
     this.#box.finish(isWhole, this.#found);
     const { crs, las } = this.#header;
+    if (crs?.isAngular) this.#found.note(DEGREES);
     const cloud = this.#builder.finish();
     return { ...cloud, las, ...(crs && { crs }), notes: [...this.#found.notes, ...cloud.notes] };
   }
