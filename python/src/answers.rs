@@ -7,8 +7,6 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::IntoPyDict;
 
-use crate::cloud::PointCloud;
-
 const INVERTED: &std::ffi::CStr = c"next to no points are in this image, but many are in that of the inverse pose: is it camera_to_world or world_to_camera?";
 
 /// A class or a function of `hidden_point_removal._answers`.
@@ -18,7 +16,7 @@ pub fn python<'py>(py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
 
 /// Which points are visible.
 pub fn answer<'py>(
-    cloud: &Bound<'py, PointCloud>,
+    cloud: &Bound<'py, PyAny>,
     seen: core::Visibility,
 ) -> PyResult<Bound<'py, PyAny>> {
     let none = cloud.py().None();
@@ -27,7 +25,7 @@ pub fn answer<'py>(
 
 /// What a camera sees, and the direction of length 1 from each visible point to it.
 pub fn camera_answer<'py>(
-    cloud: &Bound<'py, PointCloud>,
+    cloud: &Bound<'py, PyAny>,
     view: CameraView,
 ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>)> {
     let py = cloud.py();
@@ -43,7 +41,7 @@ pub fn camera_answer<'py>(
 
 /// `image`: where the visible points are in an image, and their depths.
 fn made<'py>(
-    cloud: &Bound<'py, PointCloud>,
+    cloud: &Bound<'py, PyAny>,
     seen: core::Visibility,
     [pixels, depths]: [Py<PyAny>; 2],
 ) -> PyResult<Bound<'py, PyAny>> {

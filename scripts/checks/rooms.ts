@@ -1,26 +1,26 @@
-// The rooms of the Rust core. A file may import only from its own room or from a room
-// upstream, and imports may not form a circle. rustc would accept both.
+// A file of the Rust core may import only from its own room or from a room upstream, and imports may not form a circle in any
+// crate. rustc would accept both.
 import { readFileSync, readdirSync } from "node:fs";
-import { join, relative } from "node:path";
+import { relative } from "node:path";
 
 import { print } from "../lib/output.js";
-import { root } from "../lib/paths.js";
+import { inRoot } from "../lib/paths.js";
 import type { Check } from "./check.js";
 import { FAIL, PASS } from "./check.js";
 
 /** The rooms from upstream to downstream. `lib` lists the public names; `wasm` uses only them and its own names. */
 const ROOMS = ["base", "cloud", "flip", "hull", "view", "answers", "dimensions", "lib", "wasm"];
 
-const source = join(root, "src");
+/** The crates besides the core. None has rooms. */
+const CRATES = ["src/files", "python/src"];
 
 export const roomsCheck: Check = {
   title: "Rust: imports go downward",
   part: "lint",
   run: () => {
-    const imports = importsOfAll();
-    const wrong = [...upward(imports), ...circles(imports)];
-    const arrows = [...imports.values()].reduce((sum, targets) => sum + targets.size, 0);
-    print(`${imports.size} files, ${arrows} imports, longest climb ${longestClimb(imports)}\n`);
+    const imports = importsOf("src");
+    const others = CRATES.map((crate) => importsOf(crate));
+    const wrong = [...upward(imports), ...[imports, ...others].flatMap(circles)];
     for (const line of wrong) print(`${line}\n`);
     return Promise.resolve(wrong.length === 0 ? PASS : { ...FAIL, failures: wrong });
   },
@@ -28,27 +28,26 @@ export const roomsCheck: Check = {
 
 type Imports = Map<string, Set<string>>;
 
-function importsOfAll(): Imports {
-  // `files` is a crate of its own.
-  const files = readdirSync(source, { recursive: true, encoding: "utf8" })
-    .filter((file) => file.endsWith(".rs") && !file.startsWith("files/"))
-    .map((file) => join(source, file));
-  const all = new Set(files);
-  return new Map(files.map((file) => [relative(source, file), importsOf(file, all)]));
+/** What each file of a crate imports. Their names begin in its folder. */
+function importsOf(crate: string): Imports {
+  const others = CRATES.map((other) => relative(crate, other));
+  const names = readdirSync(inRoot(crate), { recursive: true, encoding: "utf8" }).filter(
+    (name) => name.endsWith(".rs") && !others.some((other) => name.startsWith(`${other}/`)),
+  );
+  const all = new Set(names);
+  return new Map(names.map((name) => [name, importsOfFile(inRoot(crate, name), name, all)]));
 }
 
-function importsOf(file: string, files: Set<string>): Set<string> {
+function importsOfFile(file: string, name: string, files: Set<string>): Set<string> {
   const text = readFileSync(file, "utf8")
     .replace(/\n#\[cfg\(test\)\]\nmod tests \{[^]*/, "")
     .replace(/\/\/.*/g, "")
     .replace(/\bpub\(in [^)]*\)/g, "pub");
   const targets = new Set<string>();
-  const here = relative(source, file)
-    .replace(/(\/mod)?\.rs$/, "")
-    .split("/");
+  const here = name.replace(/(\/mod)?\.rs$/, "").split("/");
   const add = (path: string[]) => {
     const target = fileOf(path, here, files);
-    if (target !== undefined && target !== file) targets.add(relative(source, target));
+    if (target !== undefined && target !== name) targets.add(target);
   };
   const uses = /\buse ([^;]+);/g;
   for (const [, tree] of text.matchAll(uses)) branches(tree!).forEach(add);
@@ -90,12 +89,10 @@ function fileOf(path: string[], here: string[], files: Set<string>): string | un
     at = isRoot ? [] : here;
     path = ["self", ...path];
   }
-  let file = at.length === 0 && path[0] !== "self" ? join(source, "lib.rs") : undefined;
+  let file = at.length === 0 && path[0] !== "self" ? "lib.rs" : undefined;
   for (const name of path.slice(1)) {
     at = [...at, name];
-    const found = [`${at.join("/")}.rs`, `${at.join("/")}/mod.rs`]
-      .map((name) => join(source, name))
-      .find((name) => files.has(name));
+    const found = [`${at.join("/")}.rs`, `${at.join("/")}/mod.rs`].find((name) => files.has(name));
     if (found === undefined) break;
     file = found;
   }
@@ -126,19 +123,4 @@ function circles(imports: Imports): string[] {
   };
   for (const file of imports.keys()) visit(file, []);
   return found;
-}
-
-/** The length of the longest chain of imports. */
-function longestClimb(imports: Imports): number {
-  const known = new Map<string, number>();
-  const climb = (file: string): number => {
-    const before = known.get(file);
-    if (before !== undefined) return before;
-    // A provisional value, so that a circle ends.
-    known.set(file, 0);
-    const longest = Math.max(0, ...[...(imports.get(file) ?? [])].map((target) => 1 + climb(target)));
-    known.set(file, longest);
-    return longest;
-  };
-  return Math.max(...[...imports.keys()].map(climb));
 }

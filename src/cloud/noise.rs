@@ -14,7 +14,7 @@ use crate::cloud::neighbors::{Nearest, Neighbors};
 use crate::cloud::plane::off_plane;
 use crate::cloud::points::Points;
 use crate::cloud::quadric::off_quadric;
-use crate::cloud::sheets::{are_sheets, next_sheet};
+use crate::cloud::sheets::{Sample, are_sheets, next_sheet};
 use crate::cloud::statistics::{mean_distance, sampled_place};
 use crate::cloud::surface;
 
@@ -59,18 +59,6 @@ const SPREAD: f64 = 1.8;
 const SCANNED: f64 = 2.0;
 const OVERLAPPING: f64 = 4.0;
 const BY_NOISE: f64 = 1.5;
-
-/// A measured point.
-pub(crate) struct Sample {
-    pub point: u32,
-    pub place: [f64; 3],
-    /// The normal of the plane of its 16 nearest points, of either sign.
-    pub normal: DVec3,
-    /// The mean distance to its 6 nearest points.
-    pub spacing: f64,
-    /// What does not grow of the distances off the quadrics, in spacings.
-    pub noise: f64,
-}
 
 /// How a cloud's points lie about the surface that they sample.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

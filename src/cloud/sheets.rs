@@ -8,7 +8,6 @@ use crate::base::allocation::{OutOfMemory, filled, with_capacity};
 use crate::base::real::square_root;
 use crate::base::sort::percentile;
 use crate::cloud::neighbors::{Nearest, Neighbors};
-use crate::cloud::noise::Sample;
 use crate::cloud::plane::{least_axis, outer_product};
 use crate::cloud::points::Points;
 use crate::cloud::quadric::off_quadric;
@@ -31,6 +30,18 @@ const ROUNDS: usize = 2;
 /// A point is on the next sheet if it lies from the first to the second number of spacings before or behind a place,
 /// and at most one local spacing beside its normal.
 const NEXT: [f64; 2] = [0.7, 30.0];
+
+/// A measured point.
+pub(crate) struct Sample {
+    pub point: u32,
+    pub place: [f64; 3],
+    /// The normal of the plane of its 16 nearest points, of either sign.
+    pub normal: DVec3,
+    /// The mean distance to its 6 nearest points.
+    pub spacing: f64,
+    /// What does not grow of the distances off the quadrics, in spacings.
+    pub noise: f64,
+}
 
 /// Every so many-th sample, so that at most [`PLACES`] are left.
 fn some(samples: &[Sample]) -> impl Iterator<Item = &Sample> {

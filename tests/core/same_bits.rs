@@ -1,4 +1,4 @@
-//! The answers of the corpus have the same bits natively as in WebAssembly, where the program itself runs.
+//! The answers of the corpus have the same bits natively and in WebAssembly.
 
 use crate::test;
 
