@@ -10,6 +10,7 @@ import {
 import { HiddenPointFilter } from "hidden-point-removal/three";
 import { afterEach, beforeAll, describe, expect, it } from "vitest";
 
+import { cameraAt, pointsOf } from "./adapters";
 import { watchedWorkers } from "./node-workers";
 import { dragon, drawnOf, nodeOf, split, whole } from "./nodes-support";
 import { bumpySphere, problemOf } from "./support";
@@ -184,23 +185,17 @@ describe("a cloud split into nodes", () => {
     },
   );
 
-  it("is asked again only if something is new", async () => {
-    const nodes = split(dragon(), 10);
+  it("is not asked again if all of it moves with the camera", async () => {
+    const nodes = split(bumpySphere(1, 3000), 3);
     const scene = sceneOf(nodes);
-    const { root, camera, changes, filter } = scene;
-    camera.position.fromArray(root.localToWorld(new THREE.Vector3(0, 0.1, 0.5)).toArray());
+    const { root, camera, changes } = scene;
+    camera.position.fromArray(root.localToWorld(new THREE.Vector3(0, 0, 5)).toArray());
     await settle(scene);
-    // Turning the camera, or moving all of it, asks nothing.
-    const answers = changes.length;
     camera.rotation.set(1, 2, 3);
     await settle(scene);
     new THREE.Group().translateX(17).add(root, camera);
     await settle(scene);
-    expect(changes).toHaveLength(answers);
-    filter.frozen = true;
-    camera.position.x += 1;
-    filter.update(camera);
-    expect(changes).toHaveLength(answers);
+    expect(changes).toHaveLength(1);
   });
 
   it("is drawn and picked as a whole again after dispose(), and while not enabled", async () => {
@@ -411,5 +406,51 @@ describe("refuses", () => {
     scene.camera.position.fromArray(scene.root.localToWorld(new THREE.Vector3(0, 0, 1.5)).toArray());
     await settle(scene);
     expect(scene.filter.visibleCount).toBeGreaterThan(100);
+  });
+});
+
+describe("nodes that wait for their first answer", () => {
+  const isDrawn = (points: THREE.Points) => points.layers.mask !== 0;
+
+  it("are not drawn with `pending: hide`, and have their layers back afterwards", async () => {
+    const { points, group } = pointsOf(bumpySphere(5, 3000));
+    const filter = new HiddenPointNodesFilter(group, { pending: "hide" });
+    filters.push(filter);
+    const camera = cameraAt(0, 0, 5);
+    points.layers.enable(3);
+    const before = points.layers.mask;
+    filter.update(camera);
+    expect([isDrawn(points), filter.visible.get(points)!.length]).toEqual([false, 0]);
+    await expect.poll(() => filter.settled).toBe(true);
+    expect(points.layers.mask).toBe(before);
+
+    const later = pointsOf(bumpySphere(5, 3000).map((x) => x + 3)).points;
+    group.add(later);
+    filter.update(camera);
+    expect([isDrawn(points), isDrawn(later)]).toEqual([true, false]);
+    filter.enabled = false;
+    expect(isDrawn(later)).toBe(true);
+    filter.enabled = true;
+    const last = pointsOf(bumpySphere(5, 3000).map((x) => x - 3)).points;
+    group.add(last);
+    filter.update(camera);
+    filter.dispose();
+    expect([isDrawn(later), isDrawn(last)]).toEqual([true, true]);
+  });
+
+  it("are drawn by default, and if they are refused", async () => {
+    const usual = pointsOf(bumpySphere(5, 3000));
+    const filter = new HiddenPointNodesFilter(usual.group);
+    filters.push(filter);
+    filter.update(cameraAt(0, 0, 5));
+    expect(isDrawn(usual.points)).toBe(true);
+
+    const broken = pointsOf(Float32Array.of(0, 0, NaN));
+    const hiding = new HiddenPointNodesFilter(broken.group, { pending: "hide" });
+    filters.push(hiding);
+    hiding.addEventListener("error", () => undefined);
+    hiding.update(cameraAt(0, 0, 5));
+    await expect.poll(() => isDrawn(broken.points)).toBe(true);
+    expect(() => new HiddenPointNodesFilter(broken.group, { pending: "no" as "hide" })).toThrow(/pending must be/);
   });
 });

@@ -1,6 +1,11 @@
 // The adapter for three.js: refusals, changes of its points, and many filters on one page.
+import { init, PointCloud } from "hidden-point-removal";
+import { HiddenPointNodesFilter } from "hidden-point-removal/nodes";
+import { HiddenPointFilter } from "hidden-point-removal/three";
+import * as THREE from "three";
 import { afterEach, beforeAll, beforeEach, describe, expect, it } from "vitest";
 
+import { pointsOf } from "./adapters";
 import { CountedWorker, OriginalWorker, replaceWorker, running } from "./node-workers";
 import { bumpySphere, problemOf } from "./support";
 import { type Adapter, adapterFor, drawn, type Filter, nextChange, type Scene, sceneOf } from "./three-support";
@@ -165,30 +170,6 @@ describe("a filter", () => {
       filter.addEventListener("error", ({ error }) => codes.push((error as { code?: string }).code ?? error.name));
       return codes;
     }
-
-    it.each([true, false])(
-      "that a radius is too small, and goes on at places where it is not, with worker: %s",
-      async (worker) => {
-        const { points, camera, geometry } = sceneOf(adapter, sphere);
-        const filter = filterFor(points, { radius: 5, worker });
-        const codes = heard(filter);
-        filter.update(camera);
-        expect((await problemOf(() => filter.ready)).code).toBe("radius");
-        for (let i = 0; i < 20; i++) {
-          camera.position.z += 1;
-          filter.update(camera);
-          await new Promise((resolve) => setTimeout(resolve));
-        }
-        camera.position.z = 2;
-        filter.update(camera);
-        await expect.poll(() => drawn(geometry).length).toBeLessThan(2000);
-        expect(codes).toEqual(["radius"]);
-        camera.position.z = 6;
-        filter.update(camera);
-        await expect.poll(() => codes).toEqual(["radius", "radius"]);
-        expect(filter.visibleCount).toBeLessThan(2000);
-      },
-    );
 
     it("that a scale has become uneven", async () => {
       const { points, camera } = sceneOf(adapter, sphere);
@@ -413,3 +394,73 @@ describe("a filter", () => {
     });
   });
 });
+
+describe.each([
+  ["HiddenPointFilter", (points: THREE.Points, options: object) => new HiddenPointFilter(points, options)],
+  [
+    "HiddenPointNodesFilter",
+    (points: THREE.Points, options: object) => new HiddenPointNodesFilter(points.parent!, options),
+  ],
+] as const)("%s", (_, make) => {
+  beforeAll(() => init());
+
+  type Wrong = [of: (points: THREE.Points) => object, name: string, value: unknown, code: string, words: string];
+  const itself = (points: THREE.Points) => points;
+  const geometryOf = ({ geometry }: THREE.Points) => geometry;
+  const attributesOf = ({ geometry }: THREE.Points) => geometry.attributes;
+  it.each<Wrong>([
+    ...[undefined, null, {}, 7].map((value): Wrong => [itself, "geometry", value, "option", "geometry"]),
+    ...[undefined, null, {}, [1, 2, 3], 7].map((value): Wrong => [
+      attributesOf,
+      "position",
+      value,
+      "positions-type",
+      "position",
+    ]),
+    [geometryOf, "attributes", undefined, "positions-type", "position"],
+    [geometryOf, "index", [1, 2, 3], "option", "index"],
+    [geometryOf, "index", undefined, "option", "index"],
+    [geometryOf, "index", new THREE.Float32BufferAttribute([0, NaN], 1), "option", "index[1]"],
+    [geometryOf, "drawRange", undefined, "option", "drawRange"],
+    [geometryOf, "drawRange", { start: NaN, count: 7 }, "option", "drawRange"],
+    [itself, "material", undefined, "option", "dimMaterial"],
+    [itself, "material", new THREE.ShaderMaterial(), "option", "ShaderMaterial"],
+  ])("%s.%s = %s: refuses it once, and goes on after it is restored", async (of, name, value, code, words) => {
+    const { points, camera, geometry } = pointsOf(sphere);
+    const filter = make(points, { settle: false, worker: false, mode: "dim" });
+    const errors: Error[] = [];
+    filter.addEventListener("error", ({ error }: { error: Error }) => errors.push(error));
+    const visible = () => [...new PointCloud(sphere).visibleFrom(camera.position.toArray()).indices];
+    const update = async () => {
+      filter.update(camera);
+      await new Promise((resolve) => setTimeout(resolve, 1));
+    };
+    filter.update(camera);
+    await expect.poll(() => drawn(geometry)).toEqual(visible());
+    const mend = replaced(of(points) as Record<string, unknown>, name, value);
+    for (let frame = 0; frame < 4; frame++) await update();
+    expect(errors).toHaveLength(1);
+    expect(errors[0]).toMatchObject({ name: "HprError", code, message: expect.stringContaining(words) as string });
+    mend();
+    camera.position.set(3, 4, 0);
+    await update();
+    await expect
+      .poll(async () => {
+        await update();
+        return drawn(geometry);
+      })
+      .toEqual(visible());
+    expect(errors).toHaveLength(1);
+    filter.dispose();
+    expect([geometry.index, geometry.drawRange]).toEqual([null, { start: 0, count: Infinity }]);
+  });
+});
+
+/** Gives a property another value. Returns a function that restores the old value. */
+function replaced(object: Record<string, unknown>, name: string, value: unknown): () => void {
+  const before = object[name];
+  object[name] = value;
+  return () => {
+    object[name] = name === "index" ? null : name === "drawRange" ? { start: 0, count: Infinity } : before;
+  };
+}

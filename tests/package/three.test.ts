@@ -90,27 +90,6 @@ describe.each(VERSIONS)("with %s", (name, load) => {
     expect(drawn(geometry)).toHaveLength(3000);
   });
 
-  it("answers the newest view, and few of the views in between", async () => {
-    const { points, camera, geometry } = sceneOf(adapter, sphere);
-    const filter = filterFor(points);
-    const answers: number[][] = [];
-    filter.addEventListener("change", () => answers.push(drawn(geometry)));
-    const moveTo = (i: number) => {
-      camera.position.set(Math.sin(i) * 5, Math.cos(i) * 5, 1);
-      filter.update(camera);
-      return camera.position.toArray();
-    };
-    await filter.ready;
-    // The first view is being answered while the others come.
-    const [first, ...others] = Array.from({ length: 200 }, (_, i) => moveTo(i));
-    await nextChange(filter);
-    await nextChange(filter);
-    // A view in between would be answered before this.
-    const next = moveTo(200);
-    await nextChange(filter);
-    expect(answers).toEqual([first!, others.at(-1)!, next].map((viewpoint) => visibleFrom(viewpoint)));
-  });
-
   describe("asks again", () => {
     /** How many answers the last change made. */
     function answersAfter({ points }: Scene, camera: Scene["points"]["parent"], change: () => void): number {
@@ -345,32 +324,6 @@ describe.each(VERSIONS)("with %s", (name, load) => {
       filter.dispose();
       expect(picked().some(({ z }) => z < 0)).toBe(true);
     }
-  });
-
-  it("stays when frozen, and draws everything when it is not enabled", () => {
-    const { points, camera, geometry } = sceneOf(adapter, sphere);
-    const filter = filterFor(points, { worker: false });
-    filter.update(camera);
-    const before = drawn(geometry);
-    filter.frozen = true;
-    camera.position.set(5, 0, 0);
-    filter.update(camera);
-    expect(drawn(geometry)).toEqual(before);
-    filter.enabled = false;
-    expect(geometry.index).toBeNull();
-    expect(filter.visibleCount).toBe(3000);
-    filter.enabled = true;
-    expect(drawn(geometry)).toEqual(before);
-    filter.frozen = false;
-    filter.update(camera);
-    expect(drawn(geometry)).toEqual(visibleFrom([5, 0, 0]));
-
-    filter.enabled = false;
-    camera.position.set(0, 5, 0);
-    filter.update(camera);
-    expect(geometry.index).toBeNull();
-    filter.enabled = true;
-    expect(drawn(geometry)).toEqual(visibleFrom([5, 0, 0]));
   });
 
   it("leaves colors, sizes and the material alone, and everything as it was after dispose()", async () => {

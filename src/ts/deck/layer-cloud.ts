@@ -37,6 +37,11 @@ export class LayerCloud {
     return this.#cloud?.length ?? 0;
   }
 
+  /** Whether no better answer comes until the view or the positions change. */
+  get settled(): boolean {
+    return this.#follower?.isWaiting !== true && this.#unread === undefined && this.#view.isSettled;
+  }
+
   /**
    * Reads the positions now, and again if the worker is lost.
    *

@@ -49,6 +49,8 @@ export interface VisibleAnswer {
   answer: AnswerKind;
   /** The indices of the points that are drawn, ascending. */
   visible: Uint32Array;
+  /** Whether it is final: no better answer comes until the view or the data changes. */
+  settled: boolean;
 }
 
 interface Own {
@@ -267,6 +269,7 @@ export class VisiblePointCloudLayer<DataT = unknown> extends CompositeLayer<Visi
       milliseconds,
       answer: kind,
       visible: answer.indices,
+      settled: cloud.settled,
     });
   }
 

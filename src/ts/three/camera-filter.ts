@@ -345,7 +345,8 @@ export abstract class CameraFilter<Events extends FilterEvents> extends Sender<E
   #change(name: Parameters<typeof changedSettings>[1], value: unknown): void {
     Object.assign(this.settings, changedSettings(this.settings, name, value, this.#names));
     this.cameras.again();
-    this.follower.follow();
+    // Several options may change one after another.
+    queueMicrotask(() => this.follower.follow());
   }
 
   /** Says once that no map can be drawn. */

@@ -1,8 +1,18 @@
-import { useFrame, useThree } from "@react-three/fiber";
-import { type RefObject, useEffect, useLayoutEffect, useRef, useState } from "react";
+import { type ThreeElements, useFrame, useThree } from "@react-three/fiber";
+import {
+  createElement,
+  type ReactElement,
+  type Ref,
+  type RefObject,
+  useEffect,
+  useImperativeHandle,
+  useLayoutEffect,
+  useRef,
+  useState,
+} from "react";
 import type { Points } from "three";
 
-import type { AnswerKind } from "../follow/options.js";
+import type { FilterChange } from "../three/camera-filter.js";
 import { HiddenPointFilter } from "../three/filter.js";
 import type { HiddenPointFilterOptions } from "../three/options.js";
 
@@ -12,11 +22,8 @@ export interface UseHiddenPointFilterOptions extends HiddenPointFilterOptions {
   frozen?: boolean | undefined;
   /** While false, all points are drawn. Default true. */
   enabled?: boolean | undefined;
-  /**
-   * A new answer is drawn. `count` is the number of visible points. `milliseconds` is the time that it
-   * took. `answer` says what it is: a map comes before the exact answer.
-   */
-  onChange?: ((change: { count: number; milliseconds: number; answer: AnswerKind }) => void) | undefined;
+  /** A new answer is drawn. */
+  onChange?: ((change: FilterChange) => void) | undefined;
   /** The points or a view are refused. Without this callback, the error is an unhandled rejection. */
   onError?: ((error: Error) => void) | undefined;
 }
@@ -34,8 +41,8 @@ export interface UseHiddenPointFilterOptions extends HiddenPointFilterOptions {
  * }
  * ```
  *
- * The filter is made again when one of the options changes, except `frozen`, `enabled` and the
- * callbacks. It is also made again when `ref` holds another object after a render.
+ * `frozen`, `enabled`, `mode`, `looks`, `exponent`, `thickness` and the callbacks may change at any time. When another
+ * option changes, or when `ref` holds another object after a render, the filter is made again.
  *
  * @returns the filter, or null while there are no points.
  * @throws HprError the errors of `HiddenPointFilter`'s constructor. The nearest error boundary gets them.
@@ -45,7 +52,7 @@ export function useHiddenPointFilter(
   options: UseHiddenPointFilterOptions = {},
 ): HiddenPointFilter | null {
   const { frozen = false, enabled = true, onChange, onError, ...settings } = options;
-  const { dimMaterial, inversion, ...plain } = settings;
+  const { mode, looks, exponent, thickness, dimMaterial, cloud, inversion, ...plain } = settings;
   const invalidate = useThree((state) => state.invalidate);
   const [points, setPoints] = useState<Points | null>(null);
   const [filter, setFilter] = useState<HiddenPointFilter | null>(null);
@@ -63,9 +70,9 @@ export function useHiddenPointFilter(
       return;
     }
     const created = new HiddenPointFilter(points, settings);
-    created.addEventListener("change", ({ count, milliseconds, answer }) => {
+    created.addEventListener("change", (change) => {
       invalidate();
-      callbacks.current.onChange?.({ count, milliseconds, answer });
+      callbacks.current.onChange?.(change);
     });
     if (isHeard) {
       created.addEventListener("error", ({ error }) => callbacks.current.onError?.(error));
@@ -77,20 +84,48 @@ export function useHiddenPointFilter(
       invalidate();
     };
     // Each render may write the options as new objects. Only a change of their content counts.
-  }, [points, dimMaterial, JSON.stringify(inversion), JSON.stringify(plain), isHeard, invalidate]);
+  }, [points, dimMaterial, cloud, JSON.stringify(inversion), JSON.stringify(plain), isHeard, invalidate]);
 
   useEffect(() => {
     if (filter !== null) {
+      if (filter.looks !== looks) filter.looks = looks;
+      if (filter.exponent !== exponent) filter.exponent = exponent;
+      if (filter.thickness !== thickness) filter.thickness = thickness;
+      filter.mode = mode ?? "hide";
       filter.frozen = frozen;
       filter.enabled = enabled;
       // The next frame asks with the new options.
       invalidate();
     }
-  }, [filter, frozen, enabled, invalidate]);
+  }, [filter, frozen, enabled, mode, looks, exponent, thickness, invalidate]);
 
   useFrame(({ camera }) => {
     filter?.update(camera);
   });
 
   return filter;
+}
+
+/** The properties of `<points>`, and the options of the filter. */
+export type VisiblePointsProps = ThreeElements["points"] & {
+  /** See {@link UseHiddenPointFilterOptions}. */
+  filter?: UseHiddenPointFilterOptions | undefined;
+};
+
+/**
+ * A `<points>` that draws only the points that the canvas' camera sees. Pointer events do not hit
+ * the other points.
+ *
+ * ```tsx
+ * <VisiblePoints geometry={geometry} filter={{ exponent: 3, mode: "dim" }}>
+ *   <pointsMaterial size={0.01} />
+ * </VisiblePoints>
+ * ```
+ */
+export function VisiblePoints({ filter, ref, ...props }: VisiblePointsProps): ReactElement {
+  const own = useRef<Points>(null);
+  useHiddenPointFilter(own, filter);
+  // React Three Fiber has its own type for the same object.
+  useImperativeHandle(ref as Ref<unknown>, () => own.current);
+  return createElement("points", { ...props, ref: own });
 }
