@@ -35,7 +35,6 @@ const PACKAGE = [
 const PAGE = [
   ["cloud", "cloud/"],
   ["controls", "controls/"],
-  ["offline", "offline/"],
   ["settings", "settings/"],
   ["samples", "samples/"],
   ["loaders", "loaders/"],

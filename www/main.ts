@@ -1,10 +1,9 @@
 import { init } from "hidden-point-removal";
 import { WorkerPointCloud } from "hidden-point-removal/worker";
-import { byId } from "./controls/dom.ts";
+import { byId } from "./controls/controls.ts";
 import { loadAhead } from "./loaders/index.ts";
 import { sourceOf } from "./page/sources.ts";
-import { bindDrawer } from "./panel/drawer.ts";
-import { bindSheet } from "./panel/sheet.ts";
+import { bindDrawer, bindSheet } from "./panel/drawer.ts";
 import { SAMPLES } from "./samples/samples.ts";
 import { readAddress } from "./settings/read-address.ts";
 

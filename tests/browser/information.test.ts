@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import { lengthText, roundLength } from "../../www/tools/information/scale-bar.js";
+import { lengthText, roundLength } from "../../www/tools/information.js";
 import { asciiPly, ball, georeferencedBall } from "./clouds.js";
 import { las } from "./formats.js";
 import { openReady, served, unfold } from "./support.js";

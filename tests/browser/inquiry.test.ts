@@ -2,7 +2,7 @@
 import { HprError } from "hidden-point-removal";
 import { afterEach, beforeEach, expect, test, vi } from "vitest";
 import { Inquiry } from "../../www/ask/inquiry.js";
-import type { WorkerCloud } from "../../www/ask/worker-cloud.js";
+import type { WorkerCloud } from "../../www/ask/question.js";
 import { type Settings, USUAL_SETTINGS, type Viewpoint } from "../../www/settings/settings.js";
 
 interface Asked {

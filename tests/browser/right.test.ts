@@ -6,7 +6,7 @@ import { expect, test } from "vitest";
 import { oracleFor } from "../../www/compare/oracles.js";
 import { Projected, zBuffer } from "../../www/compare/zbuffer.js";
 import { make as makeRoom } from "../../www/samples/living-room.js";
-import { grid, type Mesh } from "../../www/samples/mesh.js";
+import { grid, type Mesh } from "../../www/samples/generator.js";
 import { RayTracer } from "../fidelity/rays.js";
 import { errorsOf } from "../fidelity/score.js";
 import { asciiPly, ball } from "./clouds.js";

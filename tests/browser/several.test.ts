@@ -2,7 +2,7 @@
 import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
 import type { LoadedCloud } from "../../www/cloud/cloud.js";
-import { merged } from "../../www/loaders/merge.js";
+import { merged } from "../../www/loaders/several.js";
 import { asciiPly, ball, georeferencedBall } from "./clouds.js";
 import { dropped } from "./files.js";
 import { las } from "./formats.js";

@@ -49,7 +49,7 @@ test("hidden points are picked only through the surface", async () => {
   const page = await openBall();
   // No visible point is drawn over these points.
   await unfold(page, "Look");
-  await page.getByLabel("Point size").fill("0.3");
+  await page.getByLabel("Point size").fill("0.1");
   const seen = new Set(await visible(page));
   const hidden = everything.filter((i) => !seen.has(i));
   const [index] = await lonely(page, hidden, everything);

@@ -15,8 +15,7 @@ import {
   Vector3,
 } from "three";
 import { ParametricGeometry } from "three/addons/geometries/ParametricGeometry.js";
-
-import type { Mesh } from "../../www/samples/mesh.js";
+import type { Mesh } from "../../www/samples/generator.js";
 import { bumpySphere, scatter, torus } from "./shapes.js";
 import { type Sampled, welded } from "./uneven.js";
 

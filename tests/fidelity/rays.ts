@@ -3,8 +3,7 @@
 import { BufferAttribute, BufferGeometry, DoubleSide, Ray, Vector3 } from "three";
 import { PLYLoader } from "three/addons/loaders/PLYLoader.js";
 import { MeshBVH } from "three-mesh-bvh";
-
-import type { Mesh } from "../../www/samples/mesh.js";
+import type { Mesh } from "../../www/samples/generator.js";
 import { dragonPly } from "../bench/clouds.js";
 import type { Point } from "../bench/measure.js";
 

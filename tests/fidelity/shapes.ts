@@ -1,5 +1,5 @@
 // Generated surfaces, as meshes, and points scattered over their faces.
-import { grid, joined, type Mesh } from "../../www/samples/mesh.js";
+import { grid, joined, type Mesh } from "../../www/samples/generator.js";
 import { roomSurfaces } from "../../www/samples/living-room.js";
 import { bumpyRadius, direction, seeded } from "../bench/generators.js";
 import type { Point } from "../bench/measure.js";

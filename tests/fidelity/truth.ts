@@ -2,8 +2,7 @@
 // and generated clouds, which are ray-traced here.
 import { readFileSync } from "node:fs";
 import { gunzipSync } from "node:zlib";
-
-import type { Mesh } from "../../www/samples/mesh.js";
+import type { Mesh } from "../../www/samples/generator.js";
 import { bunny36k, type Cloud, dragon, sharedFile } from "../bench/clouds.js";
 import { direction } from "../bench/generators.js";
 import type { Point } from "../bench/measure.js";

@@ -14,8 +14,7 @@ import {
 import { TeapotGeometry } from "three/addons/geometries/TeapotGeometry.js";
 import { SimplifyModifier } from "three/addons/modifiers/SimplifyModifier.js";
 import { mergeVertices } from "three/addons/utils/BufferGeometryUtils.js";
-
-import { grid, type Mesh } from "../../www/samples/mesh.js";
+import { grid, type Mesh } from "../../www/samples/generator.js";
 import { bumpyRadius, direction, seeded } from "../bench/generators.js";
 import type { Point } from "../bench/measure.js";
 import type { MeshPoints } from "./rays.js";

@@ -2,7 +2,7 @@
 import type { ChosenColumns } from "../../src/ts/formats/axes";
 import { FormatProblem } from "../../src/ts/formats/problem";
 import { readPoints } from "../../src/ts/cli/formats/formats";
-import { LoadProblem } from "../../www/loaders/problem";
+import { LoadProblem } from "../../www/loaders/protocol";
 import { readCloud } from "../../www/loaders/read";
 
 export type Outcome = { points: number[] } | { refused: string };

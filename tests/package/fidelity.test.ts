@@ -1,8 +1,7 @@
 // The tools behind the fidelity tables and the figures, tested on surfaces whose truth is plain geometry.
 import { init, PointCloud } from "hidden-point-removal";
 import { beforeAll, describe, expect, test } from "vitest";
-
-import { grid, joined, type Mesh } from "../../www/samples/mesh.js";
+import { grid, joined, type Mesh } from "../../www/samples/generator.js";
 import type { Point } from "../bench/measure.js";
 import { type Curve, curves, meanCurve } from "../fidelity/curves.js";
 import { AUTOMATIC, METHODS } from "../fidelity/methods.js";

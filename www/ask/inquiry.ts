@@ -3,17 +3,19 @@ import { type AskedStage, Follower, Refinement, type Round, type Stage } from "h
 import type { Cloud } from "../cloud/cloud.ts";
 import type { Settings, Viewpoint } from "../settings/settings.ts";
 import {
+  askMap,
+  askView,
   isSamePlace,
   isSameView,
   kindOf,
   mappedStagesOf,
   type Method,
   stagesOf,
-  type ViewQuestion,
+  type ViewAnswer,
   viewOf,
+  type ViewQuestion,
+  type WorkerCloud,
 } from "./question.ts";
-import { askMap, askView, type ViewAnswer } from "./views.ts";
-import type { WorkerCloud } from "./worker-cloud.ts";
 
 export interface TimedView extends ViewAnswer {
   /** `part`: an answer about those points alone that were read of a streamed octree. */

@@ -1,9 +1,8 @@
 import type { Plugin } from "vite";
 import { type Action, type Key, KEYS, SHEET, shownKeys, spokenKeys } from "../controls/keys.ts";
-import { FORMATS, listed, OTHER_ENDINGS } from "../settings/formats.ts";
-import { type Slider, SLIDERS } from "../settings/sliders.ts";
+import { FORMATS, listed, OTHER_ENDINGS, type Slider, SLIDERS } from "../settings/limits.ts";
 import { type Setting, type SettingName, SETTINGS } from "../settings/table.ts";
-import { LABELS } from "../settings/labels.ts";
+import { LABELS } from "../settings/settings.ts";
 
 /**
  * Fills index.html from the tables of settings, keys and formats:

@@ -1,8 +1,9 @@
-import type { Field, FileFacts } from "./facts.ts";
 import type { Spacing } from "./spacing.ts";
 import type { Up } from "../../src/ts/formats/axes.js";
 import type { FileStation } from "../../src/ts/formats/cloud-file.js";
 import type { Values } from "../../src/ts/formats/numbers.js";
+import type { Crs, Unit } from "../../src/ts/formats/las/crs.js";
+import type { LasSource } from "../../src/ts/formats/las/details.js";
 
 export type { FileStation, Up, Values };
 
@@ -83,4 +84,25 @@ export interface PreparedCloud extends Pick<LoadedCloud, "positions" | "notes" |
 
 export function upVector(up: Up): [number, number, number] {
   return up === "z" ? [0, 0, 1] : [0, up === "y" ? 1 : -1, 0];
+}
+
+export type { Crs, LasSource, Unit };
+export { valueAt } from "../../src/ts/formats/column.js";
+
+/** A column of the file: a number for each point, or a single number that all points share. */
+export interface Field {
+  name: string;
+  values: Values;
+  /** The meaning of a category's numbers, if it is known. */
+  labels?: Readonly<Record<number, string>>;
+}
+
+/** What a file says about its numbers. */
+export interface FileFacts {
+  /** The decimals of x, y and z, if the file gives them. */
+  decimals?: [number, number, number];
+  crs?: Crs;
+  las?: LasSource;
+  /** How many columns of the file are not kept, because they would take too much memory. */
+  dropped?: number;
 }

@@ -1,5 +1,7 @@
 import { ELEMENT_KEYS, spokenKeys } from "../controls/keys.ts";
 import style from "./element.css?inline";
+import { Color } from "three";
+import { type Theme, THEMES } from "../view/theme.ts";
 
 /** A new sentence must stay for this number of milliseconds before screen readers hear it. */
 const SETTLED = 1000;
@@ -112,4 +114,15 @@ function words(name: string): HTMLElement {
 function say(box: HTMLElement, sentence: string | null): void {
   box.hidden = sentence === null;
   box.querySelector("slot")!.textContent = sentence;
+}
+
+/** The theme for the page's own `--canvas` and `--accent`: the light one for a light canvas, else the dark one. */
+export function themeOf(element: Element): Theme {
+  const style = getComputedStyle(element);
+  const [background, accent] = ["--canvas", "--accent"].map((name) => style.getPropertyValue(name).trim()) as [
+    string,
+    string,
+  ];
+  const { l: lightness } = new Color(background).getHSL({ h: 0, s: 0, l: 0 });
+  return { ...THEMES[lightness > 0.5 ? "light" : "dark"], background, accent };
 }

@@ -1,13 +1,12 @@
 import type { TimedView } from "../ask/inquiry.ts";
 import { SETTINGS } from "../settings/table.ts";
-import { canDraw } from "../view/can-draw.ts";
+import { canDraw } from "../view/theme.ts";
 import type * as Api from "./api.ts";
-import { ATTRIBUTE_NAMES, SOURCES, valueOf } from "./attributes.ts";
+import { ATTRIBUTE_NAMES, readAttributes, type Reading, SOURCES, valueOf } from "./attributes.ts";
 import { Frame } from "./frame.ts";
 import { Pointing } from "./pointing.ts";
 import { Problem } from "./problem.ts";
 import { adoptEarly, placeOf, reflect, write } from "./properties.ts";
-import { type Reading, readAttributes } from "./reading.ts";
 import { type Listener, Showing } from "./showing.ts";
 
 type Events = Api.HiddenPointCloudEventMap;

@@ -1,7 +1,7 @@
 import { isKeyOf } from "../controls/keys.ts";
 import { includes, pointAt } from "../tools/find.ts";
 import { onClick, TOLERANCE } from "../tools/pointer.ts";
-import { project } from "../view/place.ts";
+import { project } from "../view/viewer.ts";
 import type { Viewer } from "../view/viewer.ts";
 import type { PickedPoint, Place } from "./api.ts";
 

@@ -1,5 +1,5 @@
 import { HprError } from "hidden-point-removal";
-import { LoadProblem } from "../loaders/problem.ts";
+import { LoadProblem } from "../loaders/protocol.ts";
 import type { HiddenPointCloudError } from "./api.ts";
 
 /** The error of an `error` event. */

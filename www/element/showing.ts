@@ -3,17 +3,14 @@ import type { Cloud } from "../cloud/cloud.ts";
 import type { LoadRequest } from "../loaders/index.ts";
 import { Moves } from "../view/moves.ts";
 import { openCloud, type Ready } from "../open/open-cloud.ts";
-import { addressOf, nameOf, requestForAddress, requestForSample } from "../open/source.ts";
-import { usableColor } from "../open/usable.ts";
+import { addressOf, nameOf, requestForAddress, requestForSample, usableColor } from "../open/wishes.ts";
 import { sentenceOf } from "../view/sentence.ts";
 import { sampleNamed } from "../samples/samples.ts";
-import { type Settings, USUAL_SETTINGS } from "../settings/settings.ts";
-import { Store } from "../settings/store.ts";
+import { type Settings, Store, USUAL_SETTINGS } from "../settings/settings.ts";
 import { inReachOnly } from "../view/framing.ts";
 import { Viewer } from "../view/viewer.ts";
-import { themeOf } from "./colors.ts";
-import { changedSettings, type Reading } from "./reading.ts";
-import type { Frame } from "./frame.ts";
+import { type Frame, themeOf } from "./frame.ts";
+import { changedSettings, type Reading } from "./attributes.ts";
 import { Problem, problemOf } from "./problem.ts";
 
 /** In sentences, a view that attributes ask for is the view "that is asked for". */

@@ -1,11 +1,21 @@
 import "./how.css";
 import { upVector } from "../cloud/cloud.ts";
-import type { Store } from "../settings/store.ts";
-import { eased } from "../controls/ease.ts";
+import type { Store } from "../settings/settings.ts";
+import { eased } from "../controls/controls.ts";
 import { THEMES } from "../view/theme.ts";
 import type { Viewer } from "../view/viewer.ts";
-import { drawCloud, drawFlipped, type Drawn, HIDDEN, MISSED, type Turn, VISIBLE, WRONG } from "./picture.ts";
-import { type Flipped, Thinned } from "./thinned.ts";
+import {
+  drawCloud,
+  drawFlipped,
+  type Drawn,
+  type Flipped,
+  HIDDEN,
+  MISSED,
+  Thinned,
+  type Turn,
+  VISIBLE,
+  WRONG,
+} from "./picture.ts";
 
 const PAGE = `
   <h2 id="how-title">How it works</h2>

@@ -1,4 +1,7 @@
-import { LoadProblem } from "./problem.ts";
+import wasm from "../../src/ts/formats/files.wasm?url";
+import { LoadProblem, type LoadRequest, missingPart } from "./protocol.ts";
+import type { PreparedCloud } from "../cloud/cloud.ts";
+import { prepareCloud } from "../cloud/prepare.ts";
 
 /**
  * The browser keeps the pieces of a download, large ones on disk. There is a limit, because a download may never end.
@@ -71,5 +74,24 @@ function brokeOff(name: string): LoadProblem {
 function checkSize(name: string, bytes: number): void {
   if (bytes > MAX_DOWNLOAD) {
     throw new LoadProblem(`${name} is too large to be downloaded: more than ${MAX_DOWNLOAD / 1e9} GB.`);
+  }
+}
+
+/** Loads the file of a sample in the page's thread: there is nothing to read, and a worker would start later than it comes. */
+export async function loadSample({ name, url }: LoadRequest & { kind: "sample" }): Promise<PreparedCloud> {
+  const { buffer: data } = await downloadBytes(name, url);
+  // Some servers answer with a page if they do not have the file.
+  if (data.byteLength % 12 !== 0) {
+    throw new LoadProblem(`${name} could not be downloaded: the server sent something else.`);
+  }
+  return prepareCloud({ positions: new Float32Array(data), colors: null });
+}
+
+/** The page itself serves the wasm that reads LAZ and E57. */
+export async function compileFiles(name: string): Promise<WebAssembly.Module> {
+  try {
+    return await WebAssembly.compile(await (await fetch(wasm)).arrayBuffer());
+  } catch {
+    throw missingPart(name);
   }
 }

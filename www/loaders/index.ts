@@ -1,10 +1,9 @@
 import type { PreparedCloud } from "../cloud/cloud.ts";
-import { LoadProblem, missingPart } from "./problem.ts";
-import type { LoadReply, LoadRequest, WorkerRequest } from "./protocol.ts";
-import { loadSample } from "./sample.ts";
+import { LoadProblem, type LoadReply, type LoadRequest, missingPart, type WorkerRequest } from "./protocol.ts";
+import { loadSample } from "./download.ts";
 import script from "./worker.ts?worker&url";
 
-export { LoadProblem } from "./problem.ts";
+export { LoadProblem } from "./protocol.ts";
 export type { LoadRequest, ReadOptions } from "./protocol.ts";
 
 /** A loading that has begun before anybody waits for it. */

@@ -1,6 +1,6 @@
 import type { LoadedCloud } from "../cloud/cloud.ts";
-import { partOf } from "../cloud/part.ts";
-import { LoadProblem } from "./problem.ts";
+import { partOf } from "../cloud/prepare.ts";
+import { LoadProblem } from "./protocol.ts";
 
 /** Beyond this, squared distances no longer fit into the f32 arithmetic of the graphics card. */
 const MAX_EXTENT = 1e18;

@@ -2,7 +2,7 @@ import { init } from "hidden-point-removal";
 import { openOctree } from "hidden-point-removal/stream";
 import { displayScale } from "../../src/ts/formats/colors.js";
 import type { LoadedCloud } from "../cloud/cloud.ts";
-import { compileFiles } from "./decoders.ts";
+import { compileFiles } from "./download.ts";
 import { decimalsOf } from "./loaded.ts";
 
 /** The most points that are shown of a streamed octree while the camera moves: soon read, and soon answered. */

@@ -2,8 +2,9 @@ import type { LoadedCloud } from "../cloud/cloud.ts";
 import { FormatProblem } from "../../src/ts/formats/problem.js";
 import { readFile } from "../../src/ts/formats/read.js";
 import { blobSource } from "../../src/ts/formats/source.js";
+import { compileFiles } from "./download.ts";
 import { loaded, type Loading } from "./loaded.ts";
-import { LoadProblem, missingPart, problemOf } from "./problem.ts";
+import { LoadProblem, missingPart, problemOf } from "./protocol.ts";
 
 /** Reads a file of points. Each reader is downloaded when it is needed. */
 export async function readCloud(loading: Loading): Promise<LoadedCloud> {
@@ -21,6 +22,6 @@ export async function readCloud(loading: Loading): Promise<LoadedCloud> {
 
 async function readBy(loading: Loading): Promise<LoadedCloud> {
   const { name, blob } = loading;
-  const wasm = async () => (await import("./decoders.ts")).compileFiles(name);
+  const wasm = () => compileFiles(name);
   return loaded(name, await readFile({ ...loading, source: blobSource(blob), single: true, wasm }));
 }

@@ -1,8 +1,7 @@
-import type { LoadedCloud } from "../cloud/cloud.ts";
-import { partOf } from "../cloud/part.ts";
+import type { Attribute, Crs, Field, FileFacts, LasSource, LoadedCloud, Values } from "../cloud/cloud.ts";
+import { partOf } from "../cloud/prepare.ts";
 import { checkedCloud } from "./limits.ts";
-import { merged, type Named } from "./merge.ts";
-import { LoadProblem } from "./problem.ts";
+import { LoadProblem } from "./protocol.ts";
 import type { Loading } from "./loaded.ts";
 import { readCloud } from "./read.ts";
 
@@ -58,4 +57,169 @@ function everyNth(cloud: LoadedCloud, step: number): LoadedCloud {
     cloud,
     Uint32Array.from({ length: count }, (_, i) => i * step),
   );
+}
+
+/** A cloud that was read, with the name of its file. */
+export interface Named {
+  name: string;
+  cloud: LoadedCloud;
+}
+
+/** The column with the number of each point's file. */
+const FILE = "file";
+/** The byte of each color of points without colors, beside points with colors. */
+const GRAY = 160;
+
+const list = new Intl.ListFormat("en", { type: "conjunction" });
+
+/**
+ * Joins clouds, one after another. No coordinate changes: if one cloud needs eight bytes for it, all get eight bytes. Only columns
+ * that every file has are kept. A new column says from which file a point is.
+ */
+export function merged(parts: readonly Named[]): LoadedCloud {
+  const clouds = parts.map(({ cloud }) => cloud);
+  const counts = clouds.map(({ positions }) => positions.length / 3);
+  const columns = clouds.map(({ fields, attributes = [] }) => fields ?? attributes);
+  const shared = columns[0]!.filter(({ name }) => columns.every((own) => own.some((other) => other.name === name)));
+  const missing = new Set(columns.flatMap((own) => own.map(({ name }) => name)));
+  for (const { name } of shared) missing.delete(name);
+  const colors = joinedColors(clouds);
+  // Another note says which files have no colors.
+  if (colors) for (const name of ["red", "green", "blue"]) missing.delete(name);
+
+  const fields = shared.map(({ name }) => joinedField(name, columns, counts));
+  const attributes = fields.flatMap((field) => attributeOf(field, clouds));
+  const files = fileColumn(parts, counts, fields);
+  return {
+    positions: joined(
+      clouds.map(({ positions }) => positions),
+      clouds.every(({ positions }) => positions instanceof Float32Array) ? Float32Array : Float64Array,
+    ) as LoadedCloud["positions"],
+    colors,
+    fields: [files, ...fields],
+    attributes: [{ ...files, kind: "category" }, ...attributes],
+    facts: joinedFacts(clouds),
+    ...sameUp(clouds),
+    notes: [
+      ...parts.flatMap(({ name, cloud }) => (cloud.notes ?? []).map((note) => `${name}: ${note}`)),
+      ...(missing.size > 0
+        ? [
+            `Columns that not every file has are left out: ${list.format([...missing].map((name) => name.replaceAll("_", " ")))}.`,
+          ]
+        : []),
+      ...colorNote(parts),
+      ...systemNote(parts),
+    ],
+  };
+}
+
+function joined(arrays: readonly Values[], Type: new (length: number) => Values): Values {
+  const all = new Type(arrays.reduce((sum, { length }) => sum + length, 0));
+  let at = 0;
+  for (const values of arrays) {
+    all.set(values, at);
+    at += values.length;
+  }
+  return all;
+}
+
+/** Numbers of different types become f64, which holds all of them exactly. */
+function joinedField(name: string, columns: readonly (readonly Field[])[], counts: readonly number[]): Field {
+  const own = columns.map((fields) => fields.find((field) => field.name === name)!);
+  const types = new Set(own.map(({ values }) => values.constructor as new (length: number) => Values));
+  const [Type] = types.size === 1 ? types : [Float64Array];
+  const [{ values: first }] = own as [Field];
+  const isConstant = own.every(({ values }) => values.length === 1 && Object.is(values[0], first[0]));
+  const whole = own.map(({ values }, i) =>
+    values.length === 1 ? filled(values.constructor as new (length: number) => Values, counts[i]!, values[0]!) : values,
+  );
+  const labels = Object.assign({}, ...own.map((field) => field.labels ?? {})) as Record<number, string>;
+  const values = isConstant && types.size === 1 ? first : joined(whole, Type!);
+  return { name, values, ...(Object.keys(labels).length > 0 ? { labels } : {}) };
+}
+
+function filled(Type: new (length: number) => Values, length: number, value: number): Values {
+  return new Type(length).fill(value);
+}
+
+/** The column as something to color by, if it is that in at least one of the files. */
+function attributeOf(field: Field, clouds: readonly LoadedCloud[]): Attribute[] {
+  const own = clouds.flatMap(({ attributes = [] }) => attributes.filter(({ name }) => name === field.name));
+  if (own.length === 0) return [];
+  const isCategory = own.some(({ kind }) => kind === "category");
+  return [{ ...own[0]!, ...field, kind: isCategory ? "category" : "scalar" }];
+}
+
+function fileColumn(
+  parts: readonly Named[],
+  counts: readonly number[],
+  others: readonly Field[],
+): Field & { labels: Record<number, string> } {
+  const isTaken = others.some(({ name }) => name === FILE);
+  const Type = parts.length <= 256 ? Uint8Array : Uint32Array;
+  return {
+    name: isTaken ? `source ${FILE}` : FILE,
+    values: joined(
+      counts.map((count, i) => filled(Type, count, i)),
+      Type,
+    ),
+    labels: Object.fromEntries(parts.map(({ name }, i) => [i, name])),
+  };
+}
+
+function joinedColors(clouds: readonly LoadedCloud[]): Uint8Array | null {
+  if (clouds.every(({ colors }) => colors === null)) return null;
+  return joined(
+    clouds.map(({ colors, positions }) => colors ?? filled(Uint8Array, positions.length, GRAY)),
+    Uint8Array,
+  ) as Uint8Array;
+}
+
+function colorNote(parts: readonly Named[]): string[] {
+  const without = parts.filter(({ cloud }) => cloud.colors === null);
+  if (without.length === 0 || without.length === parts.length) return [];
+  return [`Files without colors are gray: ${list.format(without.map(({ name }) => name))}.`];
+}
+
+/** Facts that hold for all files. */
+function joinedFacts(clouds: readonly LoadedCloud[]): FileFacts {
+  const facts = clouds.map(({ facts: own }) => own ?? {});
+  const [first] = facts as [FileFacts];
+  const decimals = facts.map((own) => own.decimals);
+  const digits = [0, 1, 2].map((axis) => Math.max(...decimals.map((own) => own?.[axis] ?? 0)));
+  return {
+    ...(decimals.every((own) => own !== undefined) ? { decimals: digits as [number, number, number] } : {}),
+    ...(first.crs && facts.every(({ crs }) => isSame(crs, first.crs!)) ? { crs: first.crs } : {}),
+    // Then all coordinates are whole steps from one place, and the cloud can be saved as LAS without rounding.
+    ...(first.las && facts.every(({ las }) => gridOf(las) === gridOf(first.las)) ? { las: first.las } : {}),
+  };
+}
+
+/** The grid that the coordinates of a LAS file are on, and how its points are stored. */
+function gridOf(las: LasSource | undefined): string | null {
+  return las
+    ? JSON.stringify([las.format, las.scale, las.offset, las.extras.map(({ description }) => [...description])])
+    : null;
+}
+
+function isSame(a: Crs | undefined, b: Crs): boolean {
+  return (
+    a !== undefined &&
+    a.name === b.name &&
+    a.unit?.meters === b.unit?.meters &&
+    a.heightUnit?.meters === b.heightUnit?.meters
+  );
+}
+
+function systemNote(parts: readonly Named[]): string[] {
+  const systems = parts.map(({ name, cloud }) => ({ name, crs: cloud.facts?.crs }));
+  const given = systems.find(({ crs }) => crs)?.crs;
+  if (!given || systems.every(({ crs }) => isSame(crs, given))) return [];
+  const said = systems.map(({ name, crs }) => `${name}: ${crs?.name ?? "none"}`).join("; ");
+  return [`The files do not name one coordinate system (${said}). Their coordinates are shown as they are.`];
+}
+
+function sameUp(clouds: readonly LoadedCloud[]): Pick<LoadedCloud, "taken"> {
+  const up = clouds[0]!.taken?.up;
+  return up && clouds.every(({ taken }) => taken?.up === up) ? { taken: { up } } : {};
 }

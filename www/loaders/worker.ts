@@ -5,8 +5,7 @@ import { makeSample } from "../samples/generators.ts";
 import { download } from "./download.ts";
 import { MAX_POINTS } from "../settings/limits.ts";
 import { checkedCloud } from "./limits.ts";
-import { LoadProblem, missingPart } from "./problem.ts";
-import type { LoadReply, WorkerRequest } from "./protocol.ts";
+import { LoadProblem, type LoadReply, missingPart, type WorkerRequest } from "./protocol.ts";
 
 const post = (reply: LoadReply, transfer: Transferable[] = []) => self.postMessage(reply, { transfer });
 

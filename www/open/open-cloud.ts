@@ -1,15 +1,14 @@
 import { init } from "hidden-point-removal";
 import { WorkerPointCloud } from "hidden-point-removal/worker";
 import { Inquiry, isHang } from "../ask/inquiry.ts";
-import { WorkerCloud } from "../ask/worker-cloud.ts";
+import { WorkerCloud } from "../ask/question.ts";
 import type { Up } from "../cloud/cloud.ts";
 import { loadCloud, type LoadRequest } from "../loaders/index.ts";
 import type { Sample } from "../samples/samples.ts";
 import type { Settings } from "../settings/settings.ts";
 import { type AskedView, findHome, type Home, inReachOnly, levelFrom } from "../view/framing.ts";
 import type { Opened } from "../view/viewer.ts";
-import { usableColor } from "./usable.ts";
-import { usualLook } from "./usual.ts";
+import { usableColor, usualLook } from "./wishes.ts";
 
 /** A cloud to be opened, and the way in which it is to be shown. */
 export interface Wish {

@@ -1,10 +1,25 @@
-import { nextFrame } from "../controls/dom.ts";
-import { isCalm } from "../controls/motion.ts";
+import { eased, isCalm, nextFrame } from "../controls/controls.ts";
+import type { Store } from "../settings/settings.ts";
 import { MIDDLE } from "../settings/limits.ts";
-import type { Store } from "../settings/store.ts";
-import type { Turning } from "../view/turning.ts";
+import type { Turning } from "../view/moves.ts";
 import type { Viewer } from "../view/viewer.ts";
-import { sweep } from "./sweep.ts";
+
+/** Milliseconds in which the line crosses the picture. */
+const SWEEP = 2600;
+
+/** Moves the line that divides the picture to a place, at once if motion is to be reduced or when `goes` says no. */
+export async function sweep(store: Store, to: number, goes: () => boolean): Promise<void> {
+  const from = store.current.compare ?? to;
+  const begun = performance.now();
+  while (goes() && !isCalm()) {
+    const share = Math.min(1, (performance.now() - begun) / SWEEP);
+    store.change({ compare: from + (to - from) * eased(share) });
+    if (share === 1) return;
+    await nextFrame();
+  }
+  // Whoever has put the line away does not want it back.
+  if (store.current.compare !== null) store.change({ compare: to });
+}
 
 /**
  * The first sight of the page, for an address that asks for nothing: all points; a line sweeps over them and leaves

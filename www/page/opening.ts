@@ -1,19 +1,15 @@
 import { LoadProblem, type ReadOptions } from "../loaders/index.ts";
 import { openCloud } from "../open/open-cloud.ts";
-import type { Message } from "../panel/message.ts";
+import { type Message, Progress } from "../panel/message.ts";
 import type { Panel } from "../panel/panel.ts";
-import { Progress } from "../panel/progress.ts";
 import { SamplePicker } from "../panel/sample-picker.ts";
 import type { Sample } from "../samples/samples.ts";
 import type { Address, Usual } from "../settings/address.ts";
-import { USUAL_SETTINGS } from "../settings/settings.ts";
-import type { Store } from "../settings/store.ts";
+import { type Store, USUAL_SETTINGS } from "../settings/settings.ts";
 import type { Workshop } from "../tools/workshop.ts";
 import type { AskedView } from "../view/framing.ts";
 import type { Viewer } from "../view/viewer.ts";
-import { calibrate } from "./calibrate.ts";
-import { chooseColumns } from "./columns.ts";
-import { isLoss, type Notices, sentenceOf } from "./notices.ts";
+import { calibrate, chooseColumns, isLoss, type Notices, sentenceOf } from "./notices.ts";
 import { fromSample, type Source } from "./sources.ts";
 import type { Status } from "./status.ts";
 

@@ -1,27 +1,68 @@
-import { byId } from "../controls/dom.ts";
+import { Message, Signs } from "../panel/message.ts";
+import { Turning } from "../view/moves.ts";
+import { Opening, type Parts } from "./opening.ts";
+import { byId } from "../controls/controls.ts";
 import { forgetAhead } from "../loaders/index.ts";
 import { onFile } from "../panel/files.ts";
-import { Message } from "../panel/message.ts";
 import { Panel } from "../panel/panel.ts";
-import { Signs } from "../panel/signs.ts";
 import { sampleNamed } from "../samples/samples.ts";
 import { Address, type CameraPlace } from "../settings/address.ts";
 import type { Wishes } from "../settings/read-address.ts";
-import { USUAL_SETTINGS } from "../settings/settings.ts";
-import { Store } from "../settings/store.ts";
+import { Store, USUAL_SETTINGS } from "../settings/settings.ts";
 import type { StoryName } from "../settings/table.ts";
 import { Workshop } from "../tools/workshop.ts";
 import type { AskedView } from "../view/framing.ts";
-import { canDraw } from "../view/can-draw.ts";
-import { Turning } from "../view/turning.ts";
+import { canDraw } from "../view/theme.ts";
 import { Viewer } from "../view/viewer.ts";
 import { Introduction } from "./introduction.ts";
 import { Notices, sentenceOf } from "./notices.ts";
-import { Opening } from "./opening.ts";
 import { fromFiles, limitsOf, type Source } from "./sources.ts";
 import { Status } from "./status.ts";
 import { Storytelling } from "./storytelling.ts";
-import { wire } from "./wiring.ts";
+
+/** Connects the parts of the page: the viewer draws and asks, and the other parts follow it. */
+export function wire({
+  viewer,
+  store,
+  panel,
+  signs,
+  address,
+  workshop,
+  status,
+  message,
+  notices,
+  turning,
+}: Parts & { signs: Signs; turning: Turning }): void {
+  viewer.onFrame = () => workshop.place();
+  viewer.onDetail = () => workshop.exchange();
+  viewer.onAttributes = (cloud) => panel.prepare(cloud);
+  viewer.stage.onCamera = () => {
+    // While another cloud is being read, the camera is not where the address says.
+    if (viewer.cloud) address.touch();
+  };
+  viewer.stage.onLost = () => {
+    message.show(
+      "The browser has taken the picture away to save memory; it is drawn again as soon as the browser allows, or when you reload the page.",
+    );
+  };
+  viewer.stage.onRestored = () => message.hide();
+  store.follow((now) => status.describe(now.freeze !== null));
+  viewer.onAnswer = (answer, total) => {
+    panel.follow(answer);
+    workshop.answer();
+    status.answer(answer, total, store.current.freeze !== null);
+    notices.tell(answer.note);
+  };
+  viewer.onMap = (mapped) => status.map(mapped);
+  viewer.onBusy = (busy, byMap) => {
+    status.busy(busy);
+    // A picture that turns by itself is never up to date, and nobody waits for it.
+    signs.busy(busy && !byMap && !turning.isOn);
+  };
+  viewer.onError = (error) => {
+    notices.refuseView(error, () => viewer.restart());
+  };
+}
 
 /** Makes the parts of the page, and opens the first cloud in them. Without WebGL 2, says so. Resolves when it is open. */
 export async function startSession(wishes: Wishes, first: Source): Promise<void> {

@@ -1,5 +1,5 @@
 import type { Wish } from "../open/open-cloud.ts";
-import { type FileOptions, requestForAddress, requestForSample } from "../open/source.ts";
+import { type FileOptions, requestForAddress, requestForSample } from "../open/wishes.ts";
 import { type Sample, sampleNamed } from "../samples/samples.ts";
 import type { CloudName } from "../settings/address.ts";
 import { MAX_POINTS } from "../settings/limits.ts";

@@ -1,7 +1,7 @@
 import type { Inversion } from "../settings/settings.ts";
 import { SETTINGS } from "../settings/table.ts";
 import type { Mapped, TimedView } from "../ask/inquiry.ts";
-import { byId } from "../controls/dom.ts";
+import { byId } from "../controls/controls.ts";
 import { captionOf, methodOf, sentenceOf } from "../view/sentence.ts";
 
 /** Milliseconds between two changes of the sentence. A sentence that stays for this time is announced. */

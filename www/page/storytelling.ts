@@ -1,17 +1,16 @@
-import { byId, nextFrame } from "../controls/dom.ts";
+import { byId, nextFrame } from "../controls/controls.ts";
 import { SAMPLES } from "../samples/samples.ts";
 import type { Address } from "../settings/address.ts";
 import { readAddress } from "../settings/read-address.ts";
-import { USUAL_SETTINGS } from "../settings/settings.ts";
-import type { Store } from "../settings/store.ts";
-import { type StoryName, STORIES } from "../settings/table.ts";
+import { type Store, USUAL_SETTINGS } from "../settings/settings.ts";
+import { STORIES, type StoryName } from "../settings/table.ts";
 import type { Player } from "../stories/player.ts";
 import type { Workshop } from "../tools/workshop.ts";
 import { inLocal } from "../view/framing.ts";
 import type { Viewer } from "../view/viewer.ts";
 import type { Opening } from "./opening.ts";
 import { sourceOf } from "./sources.ts";
-import { sweep } from "./sweep.ts";
+import { sweep } from "./introduction.ts";
 
 /** Milliseconds in which the camera flies to the next step. */
 const FLIGHT = 1500;

@@ -1,5 +1,4 @@
-import { byId } from "../controls/dom.ts";
-import { remember } from "../controls/memory.ts";
+import { byId, remember } from "../controls/controls.ts";
 
 /**
  * The drawer with all controls. Until it is opened, the page is the picture with a caption and three verbs. The script in
@@ -18,5 +17,16 @@ export function bindDrawer(): void {
     dataset["tools"] = dataset["tools"] === "open" ? "closed" : "open";
     remember("tools", dataset["tools"]);
     show();
+  });
+}
+
+/** On a phone the panel is a bar; this button opens the rest of it. */
+export function bindSheet(): void {
+  const toggle = byId("sheet-toggle", HTMLButtonElement);
+  const panel = byId("panel");
+  toggle.addEventListener("click", () => {
+    const open = panel.classList.toggle("open");
+    toggle.setAttribute("aria-expanded", String(open));
+    toggle.textContent = open ? "Fewer controls" : "More controls";
   });
 }

@@ -1,4 +1,4 @@
-import { byId } from "../controls/dom.ts";
+import { byId } from "../controls/controls.ts";
 
 export interface FileActions {
   /** `notes`: sentences that the user has to read about the files. */

@@ -1,5 +1,6 @@
-import { byId } from "../controls/dom.ts";
+import { byId } from "../controls/controls.ts";
 import { isKeyOf } from "../controls/keys.ts";
+import type { Store } from "../settings/settings.ts";
 
 export interface MessageAction {
   label: string;
@@ -45,5 +46,50 @@ export class Message {
       run();
     });
     return button;
+  }
+}
+
+/** The bar along the top of the picture while a cloud is being loaded, and the button that stops the loading. */
+export class Progress {
+  readonly #bar = byId("progress", HTMLProgressElement);
+  readonly #cancel = byId("cancel", HTMLButtonElement);
+
+  constructor(onCancel: () => void) {
+    this.#cancel.addEventListener("click", onCancel);
+  }
+
+  /** Shows the progress. `null`: a cloud is being loaded, but the progress is not known. */
+  show(fraction: number | null): void {
+    this.#bar.hidden = this.#cancel.hidden = false;
+    if (fraction === null) this.#bar.removeAttribute("value");
+    else this.#bar.value = fraction;
+  }
+
+  hide(): void {
+    // The focus must not vanish with the button.
+    if (document.activeElement === this.#cancel) byId("view").focus();
+    this.#bar.hidden = this.#cancel.hidden = true;
+  }
+}
+
+/** The small signs over the picture: an answer is still to come, the viewpoint is frozen, this color means hidden. */
+export class Signs {
+  readonly #work = byId("sign-work");
+
+  constructor(store: Store) {
+    const frozen = byId("sign-frozen");
+    const hidden = byId("sign-hidden");
+    store.follow(({ freeze, hidden: mode, compare }) => {
+      const isFrozen = freeze !== null;
+      frozen.hidden = !isFrozen;
+      // Beside a comparison, hidden points have no color of their own.
+      hidden.hidden = mode === "off" || compare !== null;
+      hidden.dataset["dimmed"] = String(mode === "dimmed");
+      hidden.lastElementChild!.textContent = isFrozen ? "Hidden from that viewpoint" : "Hidden from here";
+    });
+  }
+
+  busy(busy: boolean): void {
+    this.#work.hidden = !busy;
   }
 }

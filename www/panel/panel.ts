@@ -1,17 +1,147 @@
-import type { ViewAnswer } from "../ask/views.ts";
+import { byId, Segmented, Slider } from "../controls/controls.ts";
+import { canLook, rowOf, type Settings, type Store, USUAL_SETTINGS } from "../settings/settings.ts";
+import { SLIDERS } from "../settings/limits.ts";
+import type { SettingName } from "../settings/table.ts";
+import type { ViewAnswer } from "../ask/question.ts";
+import { type Theme, type ThemeName, THEMES } from "../view/theme.ts";
 import type { Cloud } from "../cloud/cloud.ts";
-import { byId } from "../controls/dom.ts";
-import { canLook, type Settings, USUAL_SETTINGS } from "../settings/settings.ts";
-import type { Store } from "../settings/store.ts";
-import { Moves } from "../view/moves.ts";
-import type { Turning } from "../view/turning.ts";
+import { colorChoices, type Legend } from "../view/colors.ts";
+import { Moves, type Turning } from "../view/moves.ts";
 import type { Viewer } from "../view/viewer.ts";
-import { bindColor, type ColorControl } from "./color.ts";
-import { bindRadius } from "./radius.ts";
-import { unfoldUnusual } from "./sections.ts";
-import { bindSettings } from "./settings.ts";
-import { bindTheme } from "./theme.ts";
 import { bindVerbs } from "./verbs.ts";
+
+/** Settings whose only control is one row of buttons or one slider. The other controls have files of their own. */
+const CHOICES = ["hidden", "looks", "up", "theme"] as const;
+const SLIDING = ["size", "fieldOfView"] as const;
+
+/** Settings that change together with another one. With another direction up, a frozen view has no meaning. */
+const TOGETHER: Partial<Record<SettingName, Partial<Settings>>> = { up: { freeze: null } };
+
+/** Binds the controls that index.html marks with the name of their setting. */
+export function bindSettings(store: Store): void {
+  for (const name of CHOICES) bindChoice(store, name);
+  for (const name of SLIDING) bindSlider(store, name);
+}
+
+/** A row of buttons, one for each text that the panel offers for the setting. */
+function bindChoice(store: Store, name: (typeof CHOICES)[number]): void {
+  const row = rowOf(name);
+  const choice = new Segmented(idOf(name), (text) => store.change({ [name]: row.parse(text), ...TOGETHER[name] }));
+  store.follow((now) => (choice.value = row.write(now[name])));
+}
+
+function bindSlider(store: Store, name: (typeof SLIDING)[number]): void {
+  const slider = new Slider(idOf(name), SLIDERS[name].text, (value) => store.change({ [name]: value }));
+  store.follow((now) => (slider.value = now[name]));
+}
+
+function idOf(name: SettingName): string {
+  return document.querySelector(`[data-setting="${name}"]`)!.id;
+}
+
+/** The settings in each folded section. */
+const SECTIONS: Record<string, (keyof Settings)[]> = {
+  "look-section": ["color", "size", "fieldOfView", "up"],
+  "advanced-section": ["looks", "radius"],
+};
+
+/** Unfolds the sections with a setting that is not usual: the user must find what changes the picture. */
+export function unfoldUnusual(settings: Settings): void {
+  for (const [id, names] of Object.entries(SECTIONS)) {
+    if (names.some((name) => settings[name] !== USUAL_SETTINGS[name])) byId(id, HTMLDetailsElement).open = true;
+  }
+}
+
+/** The radius of one hull: automatic, until the slider is moved. The returned function shows that of an answer. */
+export function bindRadius(store: Store): (answer: ViewAnswer) => void {
+  const slider = new Slider("exponent", SLIDERS.exponent.text, (exponent) => store.change({ radius: { exponent } }));
+  slider.clear();
+  const automatic = byId("radius-auto");
+  automatic.addEventListener("click", () => store.change({ radius: { rule: "auto" } }));
+  const group = byId("radius-choice", HTMLFieldSetElement);
+  store.follow(({ radius, inversion }) => {
+    automatic.setAttribute("aria-pressed", String("rule" in radius));
+    group.disabled = inversion !== "spherical";
+    if ("exponent" in radius) slider.value = radius.exponent;
+  });
+  return ({ question, visibility }) => {
+    const { radius, inversion } = store.current;
+    const isFound = question.method.radius !== null && inversion === "spherical";
+    if (isFound && !("exponent" in radius)) slider.value = visibility.exponent;
+  };
+}
+
+/** Applies the chosen theme, or the theme of the system, to the page, its marks and the canvas (by `apply`). */
+export function bindTheme(store: Store, apply: (theme: Theme) => void): void {
+  const system = matchMedia("(prefers-color-scheme: light)");
+  let shown: ThemeName | null = null;
+  const show = () => {
+    const { theme } = store.current;
+    const name = theme === "system" ? (system.matches ? "light" : "dark") : theme;
+    if (name === shown) return;
+    shown = name;
+    document.documentElement.dataset["theme"] = name;
+    // An exported picture takes its style from this element alone.
+    document.querySelector<SVGElement>("#marks")!.dataset["theme"] = name;
+    // The browser's own bars lie beside the panel, so they have its color.
+    const panel = getComputedStyle(byId("panel")).backgroundColor;
+    document.querySelector<HTMLMetaElement>('meta[name="theme-color"]')!.content = panel;
+    apply(THEMES[name]);
+  };
+  store.follow(show);
+  system.addEventListener("change", show);
+}
+
+export interface ColorControl {
+  /** Offers the attributes by which a cloud can be colored. */
+  offer: (cloud: Cloud) => void;
+  explain: (legend: Legend | null) => void;
+}
+
+/** The choice of colors, and a legend that explains them. */
+export function bindColor(store: Store): ColorControl {
+  const select = byId("color", HTMLSelectElement);
+  const legend = byId("legend");
+  select.addEventListener("change", () => store.change({ color: select.value }));
+  store.follow(({ color }) => (select.value = color));
+  return {
+    offer: (cloud) => {
+      select.replaceChildren(...colorChoices(cloud).map(({ value, label }) => new Option(label, value)));
+      select.value = store.current.color;
+    },
+    explain: (next) => {
+      legend.hidden = next === null;
+      legend.replaceChildren(...(next === null ? [] : next.kind === "ramp" ? rampParts(next) : categoryParts(next)));
+    },
+  };
+}
+
+function rampParts({ low, high, colors }: Extract<Legend, { kind: "ramp" }>): Node[] {
+  const bar = element("span", "ramp");
+  bar.style.background = `linear-gradient(90deg, ${colors.join(", ")})`;
+  const digits = Math.max(0, Math.min(6, 2 - Math.floor(Math.log10(high - low || 1))));
+  const number = new Intl.NumberFormat("en-US", { maximumFractionDigits: digits });
+  return [bar, element("span", "low", number.format(low)), element("span", "high", number.format(high))];
+}
+
+function categoryParts({ entries }: Extract<Legend, { kind: "categories" }>): Node[] {
+  const list = element("ul", "");
+  for (const { label, color, count } of entries) {
+    const swatch = element("span", "swatch");
+    swatch.style.background = color;
+    const item = element("li", "");
+    item.append(swatch, label, element("span", "count", count.toLocaleString("en-US")));
+    list.append(item);
+  }
+  return [list];
+}
+
+function element(tag: string, name: string, text = ""): HTMLElement {
+  const made = document.createElement(tag);
+  if (name) made.className = name;
+  made.textContent = text;
+  return made;
+}
 
 /** All controls of the panel: they change the settings, and show them. */
 export class Panel {

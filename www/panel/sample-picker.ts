@@ -1,5 +1,5 @@
-import { SAMPLES, type Sample, sampleNamed } from "../samples/samples.ts";
-import { byId } from "../controls/dom.ts";
+import { type Sample, sampleNamed, SAMPLES } from "../samples/samples.ts";
+import { byId } from "../controls/controls.ts";
 
 /** The size in CSS pixels. tests/browser/thumbnails.ts makes the pictures twice as large. */
 const THUMBNAIL = { width: 75, height: 50 };

@@ -1,11 +1,9 @@
-import { byId } from "../controls/dom.ts";
-import { isCalm } from "../controls/motion.ts";
+import { byId, isCalm } from "../controls/controls.ts";
 import type { Vector3 } from "three";
 import { inLocal } from "../view/framing.ts";
 import { MIDDLE } from "../settings/limits.ts";
-import type { Store } from "../settings/store.ts";
-import type { Moves } from "../view/moves.ts";
-import type { Turning } from "../view/turning.ts";
+import type { Store } from "../settings/settings.ts";
+import type { Moves, Turning } from "../view/moves.ts";
 import type { Viewer } from "../view/viewer.ts";
 
 /** How many times as fast as usual the camera walks around a frozen viewpoint. */

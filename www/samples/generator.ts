@@ -1,5 +1,4 @@
 import type { LoadedCloud } from "../cloud/cloud.ts";
-import type { Mesh } from "./mesh.ts";
 import type { Solid } from "./trace.ts";
 
 /** A module that makes a sample: the same points on every machine. */
@@ -19,4 +18,54 @@ export type Truth = { mesh: Mesh; on: OnFaces | null } | { scene: Solid<unknown>
 export interface OnFaces {
   positions: Float32Array;
   faces: Uint32Array;
+}
+
+export interface Mesh {
+  positions: Float32Array;
+  /** Three indices for each triangle. */
+  triangles: Uint32Array;
+}
+
+/** A piece of surface in columns and rows of rectangles, each cut in two. `at` takes two numbers from 0 to 1. */
+export function grid(columns: number, rows: number, at: (u: number, v: number) => readonly number[]): Mesh {
+  const positions = new Float32Array(3 * (columns + 1) * (rows + 1));
+  const triangles = new Uint32Array(6 * columns * rows);
+  for (let row = 0; row <= rows; row++) {
+    for (let column = 0; column <= columns; column++) {
+      const corner = row * (columns + 1) + column;
+      positions.set(at(column / columns, row / rows), 3 * corner);
+      if (row === rows || column === columns) continue;
+      const [right, up] = [corner + 1, corner + columns + 1];
+      triangles.set([corner, right, up, up, right, up + 1], 6 * (row * columns + column));
+    }
+  }
+  return { positions, triangles };
+}
+
+/** Several meshes as one. */
+export function joined(meshes: readonly Mesh[]): Mesh {
+  const positions = new Float32Array(meshes.reduce((sum, mesh) => sum + mesh.positions.length, 0));
+  const triangles = new Uint32Array(meshes.reduce((sum, mesh) => sum + mesh.triangles.length, 0));
+  let [point, corner] = [0, 0];
+  for (const mesh of meshes) {
+    positions.set(mesh.positions, 3 * point);
+    triangles.set(
+      mesh.triangles.map((index) => index + point),
+      corner,
+    );
+    point += mesh.positions.length / 3;
+    corner += mesh.triangles.length;
+  }
+  return { positions, triangles };
+}
+
+/** Tommy Ettinger's mulberry32: 32 bits of state, and the same numbers from 0 to 1 on every machine. */
+export function mulberry32(seed: number): () => number {
+  let state = seed;
+  return () => {
+    state = (state + 0x6d2b79f5) | 0;
+    let t = Math.imul(state ^ (state >>> 15), 1 | state);
+    t = (t + Math.imul(t ^ (t >>> 7), 61 | t)) ^ t;
+    return ((t ^ (t >>> 14)) >>> 0) / 4294967296;
+  };
 }

@@ -1,7 +1,5 @@
 import type { LoadedCloud } from "../cloud/cloud.ts";
-import type { Truth } from "./generator.ts";
-import { grid, joined } from "./mesh.ts";
-import { mulberry32 } from "./random.ts";
+import { grid, joined, mulberry32, type Truth } from "./generator.ts";
 import { box, type Color, cylinder, dot, legs, rectangle, sphere, type Surface, type Vector } from "./surfaces.ts";
 
 /*

@@ -1,5 +1,4 @@
-import { canLook, rowOf, type Settings, USUAL_SETTINGS, type Viewpoint } from "./settings.ts";
-import type { Store } from "./store.ts";
+import { canLook, rowOf, type Settings, type Store, USUAL_SETTINGS, type Viewpoint } from "./settings.ts";
 import { PARAMETERS, type SettingName, SETTINGS, STATION_COLORS } from "./table.ts";
 
 /** How the address names a cloud, by parameter and value: a sample of the page, or a file on the web. */

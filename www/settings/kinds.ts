@@ -1,4 +1,4 @@
-import type { Inversion, Radius, Viewpoint } from "./types.ts";
+import type { Inversion, Radius, Viewpoint } from "./limits.ts";
 
 /** A kind of value: how it is written as text, in the address and in attributes. */
 export interface Kind<T> {

@@ -20,3 +20,51 @@ export const FIELD_OF_VIEW = { least: 5, most: 100 };
 
 /** The farthest place from which a cloud can be looked at, in radii of the cloud. Further out, f32 is too coarse. */
 export const REACH = 1e6;
+
+/** x, y, z in the file's own coordinates. */
+export type Viewpoint = [number, number, number];
+
+/** What happens to the hidden points. */
+export type HiddenMode = "off" | "dimmed" | "shown";
+
+/**
+ * The radius R of the flipping sphere: chosen automatically, or its length in the file's units, or its exponent
+ * log₁₀(R ÷ farthest distance).
+ */
+export type Radius = { rule: "auto" } | { exponent: number } | { length: number };
+
+/** How many looks make the answer when the camera rests (docs/LOOKS.md). 0: the operator of the paper. */
+export type Looks = 0 | 2 | 3;
+
+/** How points are flipped. The exponential's c is counted in spacings, so that it suits clouds of any size. */
+export type Inversion = "spherical" | { exponential: number | "auto" };
+
+/** The colors of the page: those that the system asks for, or always one theme. */
+export type ThemeChoice = "system" | "dark" | "light";
+
+/** The files that can be opened, as people write their names. Each name is also the ending of such files. */
+export const FORMATS = ["LAS", "LAZ", "E57", "PTX", "PLY", "PCD", "XYZ", "TXT", "CSV", "OBJ", "glTF", "GLB"] as const;
+
+/** Other endings of such files: tables of numbers, mostly from scanners, and packed files. */
+export const OTHER_ENDINGS = ["PTS", "ASC", "GZ"] as const;
+
+/** In a sentence: "LAS, LAZ … glTF or GLB". */
+export function listed(words: readonly string[], last: "and" | "or"): string {
+  return `${words.slice(0, -1).join(", ")} ${last} ${words.at(-1)!}`;
+}
+
+/** The track of a slider of the panel. The address may allow values beyond the ends of the track. */
+export interface Slider {
+  least: number;
+  most: number;
+  step: number;
+  /** The words beside the slider for a place on its track. */
+  text: (at: number) => string;
+}
+
+/** The sliders, by the name of their setting or parameter. */
+export const SLIDERS = {
+  size: { least: 0.1, most: 5, step: 0.05, text: (at) => `${Number(at.toFixed(2))} ×` },
+  fieldOfView: { ...FIELD_OF_VIEW, step: 1, text: (at) => `${Math.round(at)}°` },
+  exponent: { least: 0, most: MOST_EXPONENT, step: 0.05, text: (at) => at.toFixed(2) },
+} satisfies Record<string, Slider>;

@@ -1,6 +1,6 @@
 import { type Setting, type SettingName, SETTINGS } from "./table.ts";
 
-export type * from "./types.ts";
+export type * from "./limits.ts";
 export { OWN_COLORS } from "./table.ts";
 
 /** Everything that can be set on the page. The panel and the address change it. Questions and the picture use it. */
@@ -29,3 +29,39 @@ export function withLooks(given: Partial<Settings>): Partial<Settings> {
 export function rowOf<Name extends SettingName>(name: Name): Setting<Settings[Name]> {
   return SETTINGS[name] as unknown as Setting<Settings[Name]>;
 }
+
+type Listener = (now: Settings, before: Settings) => void;
+
+/** The present settings. Each change makes a new object. So if a value is the same object, it is unchanged. */
+export class Store {
+  #settings: Settings;
+  readonly #listeners: Listener[] = [];
+
+  constructor(settings: Settings) {
+    this.#settings = settings;
+  }
+
+  get current(): Settings {
+    return this.#settings;
+  }
+
+  change(part: Partial<Settings>): void {
+    const before = this.#settings;
+    this.#settings = { ...before, ...part };
+    for (const listener of this.#listeners) listener(this.#settings, before);
+  }
+
+  /** Calls the listener with the settings now, and at every change from now on. */
+  follow(listener: Listener): void {
+    this.#listeners.push(listener);
+    listener(this.#settings, this.#settings);
+  }
+}
+
+/** The labels of the choices in the panel, by the text of each choice. index.html is made from them. */
+export const LABELS: Partial<Record<SettingName, Readonly<Record<string, string>>>> = {
+  looks: { 0: "One hull", 2: "2 looks", 3: "3 looks" },
+  hidden: { off: "Hide", dimmed: "Ghost", shown: "Highlight" },
+  up: { y: "Y", z: "Z", "-y": "−Y" },
+  theme: { system: "System", dark: "Dark", light: "Light" },
+};

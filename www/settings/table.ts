@@ -13,8 +13,18 @@ import {
   RADIUS,
   wholeBetween,
 } from "./kinds.ts";
-import { FIELD_OF_VIEW, MAX_POINTS, MOST_EXPONENT, POINT_SIZE } from "./limits.ts";
-import type { HiddenMode, Inversion, Looks, Radius, ThemeChoice, Viewpoint } from "./types.ts";
+import {
+  FIELD_OF_VIEW,
+  type HiddenMode,
+  type Inversion,
+  type Looks,
+  MAX_POINTS,
+  MOST_EXPONENT,
+  POINT_SIZE,
+  type Radius,
+  type ThemeChoice,
+  type Viewpoint,
+} from "./limits.ts";
 
 /*
  * The one table of settings. The address, the panel and the element's attributes are made from it, and the tables in the

@@ -1,6 +1,5 @@
 import "./stories.css";
-import { nextFrame } from "../controls/dom.ts";
-import { isCalm } from "../controls/motion.ts";
+import { isCalm, nextFrame } from "../controls/controls.ts";
 import { button, make } from "../tools/make.ts";
 import type { Figure, Step, Story } from "./stories.ts";
 

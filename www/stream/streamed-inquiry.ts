@@ -1,13 +1,112 @@
-import { Inquiry, type TimedView } from "../ask/inquiry.ts";
-import { isSamePlace, viewOf } from "../ask/question.ts";
-import type { WorkerCloud } from "../ask/worker-cloud.ts";
-import type { Cloud, Streamed } from "../cloud/cloud.ts";
 import type { Settings, Viewpoint } from "../settings/settings.ts";
-import { detailOf } from "./detail.ts";
-import { streamMethodOf } from "./method.ts";
-import type { StreamStep, StreamView } from "./protocol.ts";
-import { OctreeReader } from "./reader.ts";
-import { ONLY_OVERVIEW, sentenceOfOverview, sentenceOfStep } from "./words.ts";
+import { OctreeReader, type StreamMethod, type StreamStep, type StreamView } from "./reader.ts";
+import { WorkerPointCloud } from "hidden-point-removal/worker";
+import { type Detail, Inquiry, type TimedView } from "../ask/inquiry.ts";
+import { isSamePlace, viewOf, WorkerCloud } from "../ask/question.ts";
+import type { Cloud, Streamed } from "../cloud/cloud.ts";
+import { spacingOf } from "../cloud/spacing.ts";
+
+/**
+ * How a streamed octree is seen with these settings. `null`: they need all points at once. The automatic radius
+ * and looks do, too. For them, the automatic exponential inversion is used.
+ */
+export function streamMethodOf({ radius, inversion }: Settings): StreamMethod | null {
+  if (inversion !== "spherical") return inversion;
+  if ("length" in radius) return { length: radius.length };
+  return "rule" in radius ? "automatic" : null;
+}
+
+const number = new Intl.NumberFormat("en-US");
+const counted = (count: number, one: string, more = `${one}s`) => `${number.format(count)} ${count === 1 ? one : more}`;
+
+/** A step in words. `isLast`: whether no more nodes will be read. */
+export function sentenceOfStep(
+  { positions, exact, nodes, points }: StreamStep,
+  total: number,
+  isLast: boolean,
+): string {
+  const count = positions.length / 3;
+  const seen = `${number.format(count)} of ${counted(total, "point")} can be seen from here`;
+  const read = `${counted(nodes.read, "node")} with ${counted(points, "point")} ${nodes.read === 1 ? "was" : "were"} read`;
+  const hidden = `${number.format(nodes.hidden)} more ${nodes.hidden === 1 ? "is" : "are"} hidden`;
+  if (exact) return `${seen}, exactly: ${read}, ${hidden}.`;
+  if (isLast) {
+    return `${seen}: not exact, ${counted(nodes.undecided, "node")} undecided, since there is no room for more; ${read}, ${hidden}.`;
+  }
+  return `${seen} so far: ${read}, ${hidden}.`;
+}
+
+/** The answer about the overview in words. */
+export function sentenceOfOverview(count: number, shown: number, total: number): string {
+  return `${number.format(count)} of the ${counted(shown, "point")} of the coarser levels can be seen from here; the file has ${counted(total, "point")}.`;
+}
+
+/** Why only the overview answers. */
+export const ONLY_OVERVIEW =
+  "This answer is about the coarser levels alone. The other levels are read only without an exponent.";
+
+/** The overview's inquiry: it notes when the camera or the settings have changed. */
+type Leader = Pick<Inquiry, "follow" | "busy">;
+
+/** Answers the tools' questions about the points of a view. The picture's questions go to the overview. */
+class DetailInquiry extends Inquiry {
+  readonly #leader: Leader;
+
+  constructor(cloud: WorkerCloud, another: () => Promise<WorkerCloud>, size: number, leader: Leader) {
+    super(cloud, another, size);
+    this.#leader = leader;
+  }
+
+  override get busy(): boolean {
+    return this.#leader.busy;
+  }
+
+  override follow(viewpoint: Viewpoint, settings: Settings): void {
+    this.#leader.follow(viewpoint, settings);
+  }
+}
+
+/** Makes a cloud of the points of a step. All of them are visible together, as they are in the whole octree. */
+export async function detailOf(
+  { positions, colors, exact, points, merge }: StreamStep,
+  viewpoint: Viewpoint,
+  overview: Cloud,
+  leader: Leader,
+  { total, sentence, ...said }: Pick<TimedView, "kind" | "asked" | "question"> & NonNullable<TimedView["whole"]>,
+): Promise<Detail> {
+  const { center, size, radius, body, facts } = overview;
+  const [x, y, z] = body?.size ?? size;
+  const local = new Float32Array(positions.length);
+  for (let i = 0; i < positions.length; i++) local[i] = positions[i]! - center[i % 3]!;
+  const cloud: Cloud = {
+    count: positions.length / 3,
+    colors,
+    attributes: [],
+    fields: [],
+    // These points are not those of the file's records.
+    facts: { ...(facts.decimals && { decimals: facts.decimals }), ...(facts.crs && { crs: facts.crs }) },
+    origin: null,
+    center,
+    local,
+    size,
+    radius,
+    body,
+    spacing: spacingOf(local, Math.sqrt((2 * (x * y + y * z + z * x)) / (exact ? total : points))),
+  };
+  const made = async () => new WorkerCloud(await WorkerPointCloud.create(positions, { workers: 1 }), center);
+  const worker = await made();
+  const inquiry = new DetailInquiry(worker, made, radius, leader);
+  try {
+    const visibility = await worker.points.visibleFrom(viewpoint, merge);
+    const milliseconds = performance.now() - said.asked;
+    const whole = { total, sentence };
+    const answer = { ...said, whole, visibility, note: null, milliseconds };
+    return { cloud, positions, inquiry, answer };
+  } catch (error) {
+    inquiry.dispose();
+    throw error;
+  }
+}
 
 /** After this number of milliseconds without a move, the octree is read for the viewpoint. */
 const REST = 250;

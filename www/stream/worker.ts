@@ -2,9 +2,9 @@
 import { init, type MergeOptions } from "hidden-point-removal";
 import { type Octree, openOctree } from "hidden-point-removal/stream";
 import type { Streamed } from "../cloud/cloud.ts";
-import { compileFiles } from "../loaders/decoders.ts";
-import { LoadProblem } from "../loaders/problem.ts";
-import type { StreamReply, StreamStep, StreamTold, StreamView } from "./protocol.ts";
+import { compileFiles } from "../loaders/download.ts";
+import { LoadProblem } from "../loaders/protocol.ts";
+import type { StreamReply, StreamStep, StreamTold, StreamView } from "./reader.ts";
 
 /** The most points that are kept for the next view. */
 const KEPT = 4_000_000;

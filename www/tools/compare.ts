@@ -1,7 +1,7 @@
-import { byId } from "../controls/dom.ts";
+import { byId } from "../controls/controls.ts";
 import { pressed } from "../controls/keys.ts";
 import { MIDDLE } from "../settings/limits.ts";
-import type { Store } from "../settings/store.ts";
+import type { Store } from "../settings/settings.ts";
 import type { Viewer } from "../view/viewer.ts";
 
 /** Shares of the width, in the order of the keys: left, right, down, up, page down, page up, home, end. */

@@ -1,9 +1,76 @@
+import { BATCH } from "../../src/ts/formats/write/content.js";
+import type { Cloud } from "../cloud/cloud.ts";
+import type { Content } from "../../src/ts/formats/write/content.js";
+import type { Stage } from "../view/stage.ts";
 import type { TimedView } from "../ask/inquiry.ts";
-import { byId } from "../controls/dom.ts";
-import { coordinatesAt, indexInFile } from "./figures.ts";
-import { BATCH, contentOf, copy, save, stemOf } from "./files.ts";
-import { pictureWithMarks } from "./picture.ts";
+import { byId } from "../controls/controls.ts";
+import { coordinatesAt, indexInFile } from "./make.ts";
 import type { Bench, Tool } from "./tool.ts";
+
+/** Joins pieces into a file that the browser saves. Between the pieces, the page continues to draw. */
+export async function save(name: string, parts: Iterable<BlobPart>): Promise<void> {
+  const done: Blob[] = [];
+  for (const part of parts) {
+    // Each piece is its own Blob: text is encoded here, and encoding megabytes at once would stop the page.
+    done.push(new Blob([part]));
+    await new Promise((resolve) => setTimeout(resolve));
+  }
+  const link = document.createElement("a");
+  link.href = URL.createObjectURL(new Blob(done));
+  link.download = name;
+  link.click();
+  // By then the browser has begun to read it.
+  setTimeout(() => URL.revokeObjectURL(link.href), 60_000);
+}
+
+/** The numbers of a cloud for a file. Its colors are in bytes, as most programs expect them. */
+export function contentOf({ colors, fields }: Cloud): Pick<Content, "colors" | "fields"> {
+  return { colors, fields: fields.filter(({ name }) => !colors || !/^(red|green|blue)$/.test(name)) };
+}
+
+/** The beginning of the name of a file that is saved: the name of the cloud, without its ending and without signs. */
+export function stemOf(name: string): string {
+  const stem = name
+    .toLowerCase()
+    .replace(/\.\w{1,4}$/, "")
+    .replace(/[^\p{L}\p{N}]+/gu, "-")
+    .replace(/^-+|-+$/g, "");
+  return stem || "cloud";
+}
+
+/** Copies a text. Returns `false` if the browser refuses: the connection is not secure, or the user forbids it. */
+export async function copy(text: string): Promise<boolean> {
+  try {
+    await navigator.clipboard.writeText(text);
+    return true;
+  } catch {
+    return false;
+  }
+}
+
+/** The picture and the marks over it, as a PNG file. */
+export async function pictureWithMarks(stage: Stage, marks: SVGSVGElement): Promise<Blob> {
+  const picture = await createImageBitmap(await stage.snapshot());
+  const canvas = new OffscreenCanvas(picture.width, picture.height);
+  const context = canvas.getContext("2d")!;
+  context.drawImage(picture, 0, 0);
+  context.drawImage(await imageOf(marks, stage.size), 0, 0, picture.width, picture.height);
+  return canvas.convertToBlob({ type: "image/png" });
+}
+
+/** Makes an image of the SVG. It contains its own style. It needs only its size to stand alone. */
+async function imageOf(
+  svg: SVGSVGElement,
+  { width, height }: { width: number; height: number },
+): Promise<HTMLImageElement> {
+  const alone = svg.cloneNode(true) as SVGSVGElement;
+  alone.setAttribute("width", String(width));
+  alone.setAttribute("height", String(height));
+  const image = new Image();
+  image.src = `data:image/svg+xml,${encodeURIComponent(new XMLSerializer().serializeToString(alone))}`;
+  await image.decode();
+  return image;
+}
 
 export interface ExportActions {
   /** The name of the cloud. */

@@ -1,4 +1,4 @@
-import { byId } from "../controls/dom.ts";
+import { byId } from "../controls/controls.ts";
 import type { Spot } from "./find.ts";
 import type { Mark } from "./marks.ts";
 import type { Bench, Tool } from "./tool.ts";

@@ -3,8 +3,7 @@ import { MARK_PARAMETERS, type MarkParameter } from "../settings/address.ts";
 import { PLACE } from "../settings/kinds.ts";
 import type { Label } from "./label.ts";
 import type { Measure } from "./measure.ts";
-import { LONGEST_NAME, type Station } from "./stations/station.ts";
-import type { Stations } from "./stations/stations.ts";
+import { LONGEST_NAME, type Station, type Stations } from "./stations.ts";
 
 /** The longest text of each parameter, in characters. Many programs cut an address after 2,000 or a little more. */
 const LONGEST = 600;

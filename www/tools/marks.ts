@@ -1,8 +1,7 @@
 import type { Viewpoint } from "../settings/settings.ts";
-import { project } from "../view/place.ts";
+import { project } from "../view/viewer.ts";
 import type { Viewer } from "../view/viewer.ts";
-import { includes } from "./find.ts";
-import { Projection } from "./projection.ts";
+import { includes, Projection } from "./find.ts";
 
 const SVG = "http://www.w3.org/2000/svg";
 

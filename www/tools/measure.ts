@@ -1,6 +1,6 @@
-import { byId } from "../controls/dom.ts";
+import { byId } from "../controls/controls.ts";
 import type { Spot } from "./find.ts";
-import { measured, measuresOf, split, wayBetween } from "./figures.ts";
+import { measured, measuresOf, split, wayBetween } from "./make.ts";
 import type { Mark } from "./marks.ts";
 import { row } from "./pick.ts";
 import type { Bench, Tool } from "./tool.ts";

@@ -1,6 +1,6 @@
-import { byId } from "../controls/dom.ts";
-import { coordinatesAt, fieldText, indexInFile } from "./figures.ts";
-import { copy } from "./files.ts";
+import { byId } from "../controls/controls.ts";
+import { coordinatesAt, fieldText, indexInFile } from "./make.ts";
+import { copy } from "./export.ts";
 import type { Spot } from "./find.ts";
 import type { Mark } from "./marks.ts";
 import type { Bench, Tool } from "./tool.ts";

@@ -1,4 +1,4 @@
-import { byId } from "../controls/dom.ts";
+import { byId } from "../controls/controls.ts";
 import { pointsWithin } from "./find.ts";
 import { onDrag } from "./pointer.ts";
 import type { Bench, Tool } from "./tool.ts";

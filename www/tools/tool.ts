@@ -1,6 +1,9 @@
+import "../styles/keys.css";
 import type { Viewer } from "../view/viewer.ts";
 import type { Spot } from "./find.ts";
 import type { Marks } from "./marks.ts";
+import { byId } from "../controls/controls.ts";
+import { isKeyOf } from "../controls/keys.ts";
 
 /** The things that all tools share. */
 export interface Bench {
@@ -37,4 +40,29 @@ export interface Tool {
   begin?(): void;
   /** Forgets everything, because another cloud is shown. */
   clear?(): void;
+}
+
+/** The sheet with all keys. A modal dialog keeps the focus, closes by Escape and gives the focus back by itself. */
+export function bindKeysSheet(): void {
+  const sheet = byId("keys", HTMLDialogElement);
+  const open = () => {
+    sheet.showModal();
+    // The only button is at the end of the sheet. With the focus on the sheet, it is read and scrolled from its beginning.
+    sheet.focus();
+    sheet.scrollTop = 0;
+  };
+  const toggle = () => {
+    if (sheet.open) sheet.close();
+    else open();
+  };
+  byId("keys-close").addEventListener("click", toggle);
+  // A click beside the sheet is a click on the dialog itself.
+  sheet.addEventListener("click", (event) => {
+    if (event.target === sheet) sheet.close();
+  });
+  document.addEventListener("keydown", (event) => {
+    const typing =
+      event.target instanceof HTMLInputElement && !["radio", "checkbox", "range"].includes(event.target.type);
+    if (isKeyOf("sheet", event) && !typing && !event.ctrlKey && !event.metaKey) toggle();
+  });
 }

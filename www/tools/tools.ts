@@ -3,27 +3,24 @@ import "../styles/tool-card.css";
 import "../styles/divider.css";
 import { Vector3 } from "three";
 import { upVector } from "../cloud/cloud.ts";
-import { byId } from "../controls/dom.ts";
+import { byId } from "../controls/controls.ts";
 import { type Action, isKeyOf, pressed } from "../controls/keys.ts";
 import type { MarkParameter } from "../settings/address.ts";
-import type { Store } from "../settings/store.ts";
+import type { Store } from "../settings/settings.ts";
 import type { Viewer } from "../view/viewer.ts";
 import { Compare } from "./compare.ts";
 import { Export, type ExportActions } from "./export.ts";
-import { Information } from "./information/information.ts";
-import { ScaleBar } from "./information/scale-bar.ts";
-import { bindKeysSheet } from "./keys.ts";
+import { Information, ScaleBar } from "./information.ts";
+import { type Bench, bindKeysSheet, type Tool } from "./tool.ts";
 import { Label } from "./label.ts";
 import { linkOf, type Marked, noMarks, restore } from "./link.ts";
 import { Marks } from "./marks.ts";
 import { Measure } from "./measure.ts";
-import { Patience } from "./patience.ts";
+import { onClick, Patience, spotOf, TOLERANCE } from "./pointer.ts";
 import { Pick } from "./pick.ts";
 import { pointAt, type Spot } from "./find.ts";
-import { onClick, spotOf, TOLERANCE } from "./pointer.ts";
 import { Select } from "./select.ts";
-import { Stations } from "./stations/stations.ts";
-import type { Bench, Tool } from "./tool.ts";
+import { Stations } from "./stations.ts";
 
 /** The bar over the cloud. At most one of its tools is active. The active tool receives the clicks or the drags. */
 export class Tools {

@@ -1,6 +1,6 @@
-import { nextFrame } from "../controls/dom.ts";
+import { nextFrame } from "../controls/controls.ts";
 import type { MarkParameter } from "../settings/address.ts";
-import type { Store } from "../settings/store.ts";
+import type { Store } from "../settings/settings.ts";
 import type { Viewer } from "../view/viewer.ts";
 import type { ExportActions } from "./export.ts";
 import type { Tools } from "./tools.ts";

@@ -1,6 +1,6 @@
 import { BufferAttribute, type BufferGeometry, Color, DynamicDrawUsage, Sphere, Vector2, Vector3 } from "three";
 import { type Cloud, type Up, upVector } from "../cloud/cloud.ts";
-import { spreadOf } from "../cloud/spread.ts";
+import { spreadOf } from "../cloud/spacing.ts";
 import type { Theme } from "./theme.ts";
 
 /** The share of a selected point's own color that is covered. */

@@ -1,8 +1,7 @@
 import { type PerspectiveCamera, Vector3 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
-import { eased } from "../controls/ease.ts";
+import { eased, isCalm } from "../controls/controls.ts";
 import { pressed } from "../controls/keys.ts";
-import { isCalm } from "../controls/motion.ts";
 
 /** The camera's place and its target, in the recentered coordinates. */
 export interface Pose {

@@ -4,8 +4,7 @@ import type { Detail, Inquiry, Mapped, TimedView } from "../ask/inquiry.ts";
 import type { Attribute, Cloud, FileStation, Up } from "../cloud/cloud.ts";
 import { prepareCloud } from "../cloud/prepare.ts";
 import type { KnownSurface } from "../samples/samples.ts";
-import type { Settings, Viewpoint } from "../settings/settings.ts";
-import type { Store } from "../settings/store.ts";
+import type { Settings, Store, Viewpoint } from "../settings/settings.ts";
 import { CloudAttributes } from "./attributes.ts";
 import { colorBy, type Legend } from "./colors.ts";
 import { type Home, inFile, inLocal } from "./framing.ts";
@@ -379,4 +378,13 @@ const STAND_IN = Math.cos((2 * Math.PI) / 180);
 function isStandIn(cloud: Cloud, from: Viewpoint, here: Viewpoint): boolean {
   const [a, b] = [inLocal(cloud, from), inLocal(cloud, here)];
   return a.dot(b) >= STAND_IN * a.length() * b.length();
+}
+
+/** Finds a place in the picture, in CSS pixels from its left and top. `null`: it is behind the camera. */
+export function project({ scene, stage }: Viewer, place: Viewpoint): { x: number; y: number } | null {
+  const { camera, size } = stage;
+  const seen = inLocal(scene.cloud, place).applyMatrix4(camera.matrixWorldInverse);
+  if (seen.z >= 0) return null;
+  const { x, y } = seen.applyMatrix4(camera.projectionMatrix);
+  return { x: (0.5 + x / 2) * size.width, y: (0.5 - y / 2) * size.height };
 }

@@ -1,0 +1,97 @@
+import type { LoadRequest } from "../loaders/index.ts";
+import type { Sample } from "../samples/samples.ts";
+import type { Cloud, Up } from "../cloud/cloud.ts";
+import { OWN_COLORS, type Settings, USUAL_SETTINGS } from "../settings/settings.ts";
+import { colorChoices } from "../view/colors.ts";
+import { indicesByStation } from "../../src/ts/formats/stations.js";
+import type { Opened } from "../view/viewer.ts";
+
+/** Says which points may be left out when a file is read. */
+export interface FileOptions {
+  skipNonFinite: boolean;
+  /** The largest number of points that are shown. */
+  limit?: number;
+  /** An octree with more points than this is streamed. Without it, nothing is. */
+  streamFrom?: number;
+}
+
+/** Sample files lie beside the page, or beside the element's module. `base` is the address of that page or module. */
+export function requestForSample({ label, from }: Sample, base: string): LoadRequest {
+  return "file" in from
+    ? { kind: "sample", name: label, url: new URL(from.file, base).href }
+    : { kind: "shape", name: label, shape: from.generator };
+}
+
+/** A file on the web. A text that is not an address is kept unchanged: its download fails with a clear message. */
+export function requestForAddress(text: string, options: FileOptions): LoadRequest {
+  const url = addressOf(text);
+  return { kind: "url", name: nameOf(text), url: url?.href ?? text, ...options };
+}
+
+/** The address as the page reads it. `null` for a text that is no address. */
+export function addressOf(text: string): URL | null {
+  return URL.canParse(text, document.baseURI) ? new URL(text, document.baseURI) : null;
+}
+
+/** The name of a file on the web, for use in a sentence. */
+export function nameOf(text: string): string {
+  return addressOf(text)?.pathname.split("/").pop() || text;
+}
+
+/**
+ * The color if it suits this cloud, else the cloud's own colors. A color of the last cloud or of the address may not
+ * suit this cloud. `asked`: then a sentence says so.
+ */
+export function usableColor(color: string, cloud: Cloud, asked: boolean): { color: string; notes: string[] } {
+  if (colorChoices(cloud).some(({ value }) => value === color)) return { color, notes: [] };
+  const notes = asked ? [`The cloud has no “${color}” to color by, so it has its usual colors.`] : [];
+  return { color: OWN_COLORS, notes };
+}
+
+/**
+ * The usual settings for a cloud. `taken`: the direction that was up, if the file says so. `center`: a place in the
+ * middle of the cloud.
+ */
+export function usualLook(
+  sample: Sample | null,
+  name: string,
+  taken: Up | undefined,
+  center: Cloud["center"],
+): Pick<Settings, "size" | "fieldOfView" | "up"> {
+  return {
+    size: USUAL_SETTINGS.size,
+    fieldOfView: sample?.fieldOfView ?? USUAL_SETTINGS.fieldOfView,
+    up: sample?.up ?? taken ?? (isOnMap(center) ? "z" : usualUp(name)),
+  };
+}
+
+/**
+ * Whether a place looks like easting, northing and height. Maps count meters or feet from far away: 500,000 and more to
+ * the east in UTM, millions to the north. Heights are smaller.
+ */
+function isOnMap([x, y, z]: Cloud["center"]): boolean {
+  const [less, more] = [Math.min(Math.abs(x), Math.abs(y)), Math.max(Math.abs(x), Math.abs(y))];
+  return more >= 1e5 && less >= 1e3 && Math.abs(z) <= 0.1 * more;
+}
+
+/** In files of scanners and surveyors z is up. In files of modelers y is up. */
+function usualUp(name: string): Up {
+  return /\.(ply|obj|gltf|glb)$/i.test(name) ? "y" : "z";
+}
+
+/** A place from which points were measured, and these points: it surely sees them. */
+export interface Measured {
+  viewpoint: [number, number, number];
+  indices: Uint32Array;
+}
+
+/** The stations of a scan that have measured points. */
+export function measuredBy({
+  cloud,
+  positions,
+  stations,
+}: Pick<Opened, "cloud" | "positions" | "stations">): Measured[] {
+  return indicesByStation({ stations, columns: cloud.fields, positions })
+    .map((indices, i) => ({ viewpoint: stations[i]!.viewpoint, indices }))
+    .filter(({ indices }) => indices.length > 0);
+}
