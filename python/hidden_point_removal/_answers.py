@@ -121,9 +121,11 @@ class Calibration(NamedTuple):
     """How a cloud is to be asked, so that its scanners see the points that they measured."""
 
     thickness: float
-    """The smallest thickness that was found, in the cloud's units."""
+    """The thickness that was found, in the cloud's units."""
     recall: list[float]
     """For each station, the share of its own points that `options` see, from 0 to 1."""
+    shown: float
+    """Of the points that would otherwise be hidden, the share that `options` show."""
     options: dict[str, Any]
     """The given options with `looks` and this `thickness`."""
 

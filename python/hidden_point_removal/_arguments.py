@@ -224,6 +224,33 @@ def indices(given: Any, name: str, length: int) -> NDArray[np.uint32]:
     return read.astype(np.uint32)
 
 
+def stations(given: Any, name: str, length: int) -> list[tuple[tuple[float, float, float], NDArray[np.uint32]]]:
+    """Where scanners stood, and the indices of the points that they measured, in a cloud of so many."""
+    listed = [] if isinstance(given, (str, bytes, dict)) or not hasattr(given, "__iter__") else list(given)
+    if not listed:
+        raise refusal("option", f"{name} must be a list of at least one station, got {given!r:.60}")
+    return [_station(entry, f"{name}[{number}]", length) for number, entry in enumerate(listed)]
+
+
+def _station(given: Any, name: str, length: int) -> tuple[tuple[float, float, float], NDArray[np.uint32]]:
+    if not isinstance(given, dict):
+        raise refusal("option", f"{name} must be a dictionary of viewpoint, and of indices or mask")
+    viewpoint, own, marks = (given.get(entry) for entry in ("viewpoint", "indices", "mask"))
+    if viewpoint is None:
+        raise refusal("option", f"{name} has no viewpoint")
+    if (own is None) == (marks is None):
+        raise refusal("option", f"{name} must have one of indices and mask")
+    eye = place(viewpoint, f"the viewpoint of {name}")
+    if marks is not None:
+        own = mask(marks, f"the mask of {name}")
+    own = indices(own, f"the indices of {name}" if marks is None else f"the mask of {name}", length)
+    if not own.size:
+        raise refusal("option", f"{name} has no points")
+    if own.max() >= length:
+        raise refusal("option", f"{name} has index {own[own >= length][0]}, which must be below {length}")
+    return eye, own
+
+
 def mask(given: Any, name: str) -> NDArray[np.bool_]:
     """Truth values, or integers of which 0 is false."""
     words = f"{name} must be a list of truth values, one for each index"

@@ -1,4 +1,4 @@
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import Any, Literal
 
 import numpy as np
@@ -99,7 +99,7 @@ class PointCloud:
     ) -> SeenBy:
         """Which cameras see each point, and where: the rows of a sparse matrix (`matrix()`)."""
     def calibrate(self, stations: Iterable[Station], **options: Unpack[Options]) -> Calibration:
-        """The smallest thickness at which each station of a scan sees the points that it measured."""
+        """The thickness at which each station of a scan sees most of the points that it measured, and few hidden ones."""
     def visibility_map(
         self,
         viewpoint: ArrayLike,
@@ -135,9 +135,14 @@ class PointCloud:
     def remove(self, indices: ArrayLike) -> None:
         """Removes points, by their indices or by a mask. Their indices are never given again."""
     def _positions_of(self, indices: NDArray[np.uint32]) -> NDArray[Any]: ...
-    def _camera_views(
-        self, cameras: Iterable[CameraLike], on_progress: Callable[[float], object] | None = None, **options: Unpack[Options]
-    ) -> list[tuple[Visibility, NDArray[np.float32]]]: ...
+    def _transfer(
+        self,
+        cameras: Iterable[CameraLike],
+        images: Iterator[NDArray[Any]],
+        how: tuple[str, str | None, str],
+        on_progress: Callable[[float], object] | None = None,
+        **options: Unpack[Options],
+    ) -> tuple[NDArray[Any], NDArray[np.uint32]]: ...
     def __reduce__(self) -> tuple[Any, ...]: ...
     def __setstate__(self, removed: ArrayLike) -> None: ...
 

@@ -85,6 +85,15 @@ pub fn places(given: &Bound<'_, PyAny>, name: &str) -> PyResult<Vec<[f64; 3]>> {
         .collect()
 }
 
+/// Where scanners stood, and the indices of their points, in a cloud of so many.
+pub fn stations(given: &Bound<'_, PyAny>, length: usize) -> PyResult<Vec<([f64; 3], Vec<u32>)>> {
+    let read = read(given, "stations", (given, "stations", length))?;
+    let entries: Vec<((f64, f64, f64), Bound<'_, PyAny>)> = read.extract()?;
+    (entries.into_iter())
+        .map(|(place, own)| Ok((place.into(), listed(&own)?)))
+        .collect()
+}
+
 /// Indices of a cloud of so many, or a mask of them.
 pub fn indices(given: &Bound<'_, PyAny>, name: &str, length: usize) -> PyResult<Vec<u32>> {
     listed(&read(given, "indices", (given, name, length))?)

@@ -89,11 +89,8 @@ impl PointCloud {
         on_progress: Option<&Bound<'_, PyAny>>,
         mut query: impl Send + FnMut(Threads<'_>, &[T]) -> Result<(), core::Error>,
     ) -> PyResult<()> {
-        if on_progress.is_some_and(|listener| !listener.is_callable()) {
-            return Err(option(py, "on_progress must be callable".into()));
-        }
-        let threads = asked.how.threads;
-        let size = threads.unwrap_or(default_threads(self.__len__(py)?)).max(1);
+        check_listener(py, on_progress)?;
+        let size = self.group_size(py, asked)?;
         // Without a place, the options are checked all the same.
         let mut groups = places
             .chunks(size)
@@ -108,18 +105,40 @@ impl PointCloud {
                 groups.try_for_each(|group| query(cloud, group))
             });
         };
-        let changes = || self.changes.load(Ordering::Relaxed);
-        let (mut done, before) = (0, changes());
+        let (mut done, before) = (0, self.changes());
         for group in groups {
             self.ask(py, asked.how.clone(), |cloud| query(cloud, group))?;
-            py.check_signals()?;
             done += group.len();
-            if done > 0 {
-                listener.call1((done as f64 / places.len() as f64,))?;
-            }
-            if changes() != before {
-                return Err(option(py, "on_progress must not change the cloud".into()));
-            }
+            self.tell(listener, [done, places.len()], before)?;
+        }
+        Ok(())
+    }
+
+    /// So many places are asked about at once: as many as there are threads.
+    pub fn group_size(&self, py: Python<'_>, asked: &Asked) -> PyResult<usize> {
+        let usual = default_threads(self.__len__(py)?);
+        Ok(asked.how.threads.unwrap_or(usual).max(1))
+    }
+
+    /// How often points have come or gone.
+    pub fn changes(&self) -> usize {
+        self.changes.load(Ordering::Relaxed)
+    }
+
+    /// Tells a listener the share that is done. It must leave the cloud as it is.
+    pub fn tell(
+        &self,
+        listener: &Bound<'_, PyAny>,
+        [done, every]: [usize; 2],
+        before: usize,
+    ) -> PyResult<()> {
+        let py = listener.py();
+        py.check_signals()?;
+        if done > 0 {
+            listener.call1((done as f64 / every as f64,))?;
+        }
+        if self.changes() != before {
+            return Err(option(py, "on_progress must not change the cloud".into()));
         }
         Ok(())
     }
@@ -146,8 +165,15 @@ impl PointCloud {
     }
 }
 
+pub fn check_listener(py: Python<'_>, listener: Option<&Bound<'_, PyAny>>) -> PyResult<()> {
+    if listener.is_some_and(|listener| !listener.is_callable()) {
+        return Err(option(py, "on_progress must be callable".into()));
+    }
+    Ok(())
+}
+
 /// What some cameras see. Each has a thread of its own; a single one is divided among all threads.
-fn views(
+pub fn views(
     cloud: Threads<'_>,
     cameras: &[Camera],
     options: &Options,

@@ -10,6 +10,7 @@ mod map;
 mod parts;
 mod shared;
 mod surveys;
+mod transfer;
 mod views;
 
 use pyo3::prelude::*;

@@ -1,7 +1,8 @@
 //! Questions to a cloud about many viewpoints, and what is seen all around one.
 
-use hidden_point_removal::{Camera, Choice, PanoramaOptions, Placing};
+use hidden_point_removal::{Camera, Choice, Inversion, PanoramaOptions, Placing, Radius, Station};
 use numpy::{IntoPyArray, PyArray1, PyArrayMethods};
+use pyo3::exceptions::PyUserWarning;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
@@ -10,6 +11,8 @@ use crate::arguments::{self, numbers, place};
 use crate::cloud::PointCloud;
 use crate::map::{self, VisibilityMap};
 use crate::options::{self, Asked, How, refuse_scores};
+
+const LOW: &std::ffi::CStr = c"the stations see less than 0.9 of their own points, since a larger thickness would show more hidden points than own ones";
 
 #[pymethods]
 impl PointCloud {
@@ -178,35 +181,48 @@ impl PointCloud {
         python(py, "seen_by")?.call1((slf.get().__len__(py)?, views))
     }
 
-    /// The answer of each camera, and the direction from each visible point to it.
-    #[pyo3(signature = (cameras, on_progress=None, **options))]
-    fn _camera_views<'py>(
-        slf: &Bound<'py, Self>,
-        cameras: &Bound<'_, PyAny>,
-        on_progress: Option<&Bound<'_, PyAny>>,
-        options: Option<&Bound<'_, PyDict>>,
-    ) -> PyResult<Vec<(Bound<'py, PyAny>, Bound<'py, PyAny>)>> {
-        let asked = options::read(slf.py(), options)?;
-        Self::camera_views(slf, &arguments::cameras(cameras)?, &asked, on_progress)
-    }
-
     #[doc = asks!("calibrate($self, stations, *")]
-    /// For scans whose stations are known: the smallest thickness at which each station sees the points that it measured.
+    /// For scans whose stations are known: the thickness at which each station sees most of the points that it measured, and
+    /// few hidden ones.
     ///
     /// stations: list of dicts of viewpoint (3 numbers) and of indices (list or array of int) or mask (n truth values):
     ///     where a scanner stood, and its points.
     /// Options: those of `visible_from`; looks is 3 by default. A thickness that is given is only measured.
-    /// Returns a `Calibration`: `thickness`, `recall` (the share of its own points that each station sees) and `options`
-    /// to ask with. Takes about ten views for each station.
+    /// Returns a `Calibration`: `thickness`, `recall` (the share of its own points that each station sees), `shown` (the share
+    /// of otherwise hidden points that the thickness shows) and `options` to ask with. Takes about ten views for each station.
     #[pyo3(signature = (stations, **options), text_signature = None)]
     fn calibrate<'py>(
-        slf: &Bound<'py, Self>,
+        &self,
+        py: Python<'py>,
         stations: &Bound<'py, PyAny>,
         options: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let given = options.map_or_else(|| PyDict::new(slf.py()), Clone::clone);
-        let module = slf.py().import("hidden_point_removal._calibration")?;
-        module.call_method1("calibrated", (slf, stations, given))
+        let given = options;
+        let own = arguments::stations(stations, self.__len__(py)?)?;
+        let Asked { mut options, how } = options::read(py, given)?;
+        refuse_scores(py, &options, "calibrate")?;
+        let asked = given.map_or_else(|| Ok(PyDict::new(py)), |given| given.copy())?;
+        if options.inversion == Inversion::Spherical && options.radius == Radius::Auto {
+            options.inversion = Inversion::Looks(3);
+            asked.set_item("looks", 3)?;
+        }
+        let stations: Vec<_> = (own.iter())
+            .map(|(viewpoint, indices)| Station {
+                viewpoint: *viewpoint,
+                indices,
+            })
+            .collect();
+        let how = How {
+            more: 10 * stations.len(),
+            ..how
+        };
+        let found = self.ask(py, how, |cloud| cloud.calibrate(&stations, &options))?;
+        if found.is_low() && options.thickness.is_none() {
+            let category = py.get_type::<PyUserWarning>();
+            PyErr::warn(py, &category, LOW, 1)?;
+        }
+        asked.set_item("thickness", found.thickness)?;
+        python(py, "Calibration")?.call1((found.thickness, found.recall, found.shown, asked))
     }
 
     #[doc = asks!("visibility_map($self, viewpoint, *, points=32768, corners=131072, towards=None, origin=None")]

@@ -1,5 +1,7 @@
 """Cameras in bulk, maps of directions and stations. That the answers are those of JavaScript is tested in test_bits."""
 
+import weakref
+
 import numpy as np
 import pytest
 
@@ -104,6 +106,34 @@ def test_colors_go_from_images_to_points():
     assert values.shape == (0, 3) and seen.shape == (0,)
 
 
+@pytest.mark.parametrize("kind", [np.int32, np.uint32, np.int64, np.float64])
+@pytest.mark.parametrize("merge", ["mean", "median", "vote", "best"])
+def test_labels_stay_whole(merge, kind):
+    labels = np.full((48, 64), 2**24 + 1, kind)
+    values, seen = transfer(CLOUD, CAMERAS, [labels] * 3, merge=merge)
+    assert values.dtype == np.float64 and set(values[seen > 0]) == {2**24 + 1} and np.isnan(values[seen == 0]).all()
+
+
+def test_images_are_taken_one_at_a_time():
+    alive = []
+
+    def images():
+        for number in range(3):
+            image = np.full((48, 64), number, np.float32)
+            alive.append(weakref.ref(image))
+            yield image
+            del image
+            assert sum(kept() is not None for kept in alive) <= 1
+
+    values, _ = transfer(CLOUD, CAMERAS, images(), threads=1)
+    expected, _ = transfer(CLOUD, CAMERAS, [np.full((48, 64), number, np.float32) for number in range(3)])
+    assert np.array_equal(values, expected, equal_nan=True) and len(alive) == 3
+    for count in (2, 4):
+        with pytest.raises(HprError, match=f"one image for each of 3 cameras, got {count}"):
+            transfer(CLOUD, CAMERAS, (IMAGE for _ in range(count)))
+    assert transfer(CLOUD, [], [])[0].shape == (2000,)
+
+
 def test_images_may_be_files(tmp_path):
     image = pytest.importorskip("PIL.Image")
     photos = [np.random.default_rng(number).integers(0, 256, (48, 64, 3), np.uint8) for number in range(3)]
@@ -174,7 +204,7 @@ def test_a_scanner_sees_its_own_points():
     cloud = PointCloud(points)
     station = {"viewpoint": [0, 0, 5], "indices": np.arange(len(points))}
     found = cloud.calibrate([station])
-    assert found.recall[0] >= 0.98 and found.options == {"looks": 3, "thickness": found.thickness}
+    assert found.recall[0] >= 0.98 and found.options == {"looks": 3, "thickness": found.thickness} and 0 <= found.shown <= 1
     assert cloud.visible_from([0, 0, 5], **found.options).count == round(found.recall[0] * len(points))
     mask = np.ones(len(points), np.uint8)
     assert cloud.calibrate([{"viewpoint": [0, 0, 5], "mask": mask}]) == found

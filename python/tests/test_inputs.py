@@ -15,6 +15,7 @@ POINTS = np.random.default_rng(1).normal(size=(500, 3))
 SEEN = PointCloud(POINTS).visible_from(VIEWPOINT)
 
 # Whole numbers, which each type holds. 40 points.
+pytestmark = pytest.mark.filterwarnings("ignore:the stations see less", "ignore:next to no points")
 WHOLE = np.random.default_rng(2).integers(-9, 10, (40, 3))
 EYE = [3, 5, 40]
 MASK = np.arange(40) % 3 == 0
@@ -102,7 +103,6 @@ def forms(array):
             pass
 
 
-@pytest.mark.filterwarnings("ignore:next to no points")
 @pytest.mark.parametrize("number", NUMBERS)
 @pytest.mark.parametrize("name", ARGUMENTS)
 def test_each_array_is_read_or_refused(name, number):
