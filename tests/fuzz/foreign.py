@@ -35,7 +35,27 @@ def read_las(content):
     return numpy.asarray(laspy.read(io.BytesIO(content)).xyz, dtype="<f8")
 
 
-READERS = {b"ply ": read_ply, b"pcd ": read_pcd, b"las ": read_las}
+def written(points, colors, intensity):
+    """All numbers of a file that writeCloud has made: x, y, z, colors and the intensity of each point."""
+    columns = [points[name] for name in [*colors, intensity]]
+    return numpy.column_stack([axes(points), *(numpy.asarray(column, dtype="<f8") for column in columns)])
+
+
+def written_ply(content):
+    points = PlyData.read(io.BytesIO(content))["vertex"]
+    for color in ["red", "green", "blue"]:
+        assert points[color].dtype == numpy.uint8, f"{color} is {points[color].dtype}"
+    return written(points, ["red", "green", "blue"], "intensity")
+
+
+def written_las(content):
+    return written(laspy.read(io.BytesIO(content)), ["red", "green", "blue"], "intensity")
+
+
+READERS = {
+    **{b"ply ": read_ply, b"pcd ": read_pcd, b"las ": read_las},
+    **{b"plyw": written_ply, b"lasw": written_las},
+}
 requests, answers = sys.stdin.buffer, sys.stdout.buffer
 while head := requests.read(8):
     kind, length = struct.unpack("<4sI", head)

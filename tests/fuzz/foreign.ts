@@ -3,7 +3,7 @@
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { spawn } from "node:child_process";
-import { readCloud } from "hidden-point-removal/files";
+import { readCloud, writeCloud } from "hidden-point-removal/files";
 import { type Mesh, MeshBasicMaterial, Vector3 } from "three";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 
@@ -25,6 +25,7 @@ export async function fuzzForeign(minutes: number, seed: number): Promise<number
   if (python === undefined) console.log("skipped laspy, plyfile and pypcd4: there is no Python 3 with pip, or no PyPI");
   const foreign = python === undefined ? undefined : new Foreign(python);
   const kinds: Kind[] = foreign ? ["las", "las", "ply", "pcd", "glb"] : ["glb"];
+  let wrong = foreign ? await written(foreign, new Random(seed)) : 0;
   const tallies = new Map<string, Tally>();
   const end = Date.now() + 60_000 * minutes;
   for (let round = seed; Date.now() < end; round++) {
@@ -57,7 +58,6 @@ export async function fuzzForeign(minutes: number, seed: number): Promise<number
     }
   }
   foreign?.end();
-  let wrong = 0;
   for (const [name, { both, neither, onlyThey, onlyWe, wrong: own }] of tallies) {
     const we = [...onlyWe.values()].reduce((sum, count) => sum + count, 0);
     const tried = both + neither + onlyThey + we;
@@ -67,6 +67,56 @@ export async function fuzzForeign(minutes: number, seed: number): Promise<number
     for (const [why, count] of onlyWe) console.log(`    ${count} × ${why}`);
     wrong += own;
   }
+  return wrong;
+}
+
+/** Clouds that writeCloud has written, read by laspy and plyfile: points, colors and intensity. Returns how many differ. */
+async function written(foreign: Foreign, random: Random): Promise<number> {
+  const [count, files] = [20, 120];
+  let wrong = 0;
+  for (let file = 0; file < files; file++) {
+    const numbers = (length: number, most: number) => Array.from({ length }, () => random.below(most));
+    const positions = Float64Array.from(numbers(3 * count, 2e6), (value) => value / 1000 + 5e5);
+    const deep = random.below(2) === 0;
+    const colors = Uint8Array.from(numbers(3 * count, 256));
+    const channels = ["red", "green", "blue"].map((name, channel) => {
+      const own = Uint16Array.from({ length: count }, (_, i) => colors[3 * i + channel]! * 257);
+      return [name, own] as const;
+    });
+    const shares = random.below(2) === 0;
+    const intensity = shares
+      ? Float32Array.from(numbers(count, 65_536), (value) => value / 65_535)
+      : Uint16Array.from(numbers(count, 65_536));
+    const names = [
+      "glow",
+      "class flags",
+      "Classification",
+      "X",
+      "gps_time",
+      "a name that is longer than LAS has room for",
+    ];
+    const extra = { [random.of(names)]: Float64Array.from(numbers(count, 1e6), (value) => value / 7) };
+    const columns = { ...(deep && Object.fromEntries(channels)), intensity, ...extra };
+    const cloud = { positions, columns, ...(!deep && { colors }) };
+    for (const format of ["ply", "las"] as const) {
+      const found = await foreign.read(`${format}w`, Buffer.from(writeCloud(cloud, format)));
+      const isLas = format === "las";
+      const right = Float64Array.from({ length: 7 * count }, (_, k) => {
+        const [i, column] = [Math.floor(k / 7), k % 7];
+        if (column < 3) return positions[3 * i + column]!;
+        if (column < 6) return colors[3 * i + column - 3]! * (isLas ? 257 : 1);
+        return isLas && shares ? Math.round(intensity[i]! * 65_535) : intensity[i]!;
+      });
+      const isRight =
+        "points" in found &&
+        found.points.length === right.length &&
+        found.points.every((value, k) => Math.abs(value - right[k]!) <= (isLas && k % 7 < 3 ? 1e-6 : 0));
+      if (isRight) continue;
+      wrong++;
+      console.log(`a ${format} file with ${Object.keys(columns).join(", ")} is written wrongly: ${shown(found)}`);
+    }
+  }
+  console.log(`written files: ${2 * files}, ${wrong} wrong`);
   return wrong;
 }
 

@@ -138,7 +138,10 @@ async function write(settings: Settings, file: PointFile, answer: Answer): Promi
 function partsOf({ input, output, format }: Settings, file: PointFile, answer: Answer): Iterable<Uint8Array> {
   if (format === "points") {
     const { ending, isCopy } = writtenAs(input, output)!;
-    return isCopy ? pointsCopied(file, answer.indices) : converted(file, answer.indices, ending);
+    if (isCopy) return pointsCopied(file, answer.indices);
+    const { parts, notes } = converted(file, answer.indices, ending);
+    for (const note of notes) if (!file.notes.includes(note)) file.notes.push(note);
+    return parts;
   }
   if (format === "vis") return [colmapVis(answer.rows!)];
   const isTable = /\.(npy|csv|txt|idx|mask)$/i.test(output);

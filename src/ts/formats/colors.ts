@@ -80,17 +80,6 @@ function filled(channels: readonly Values[], missing: readonly number[]): readon
   return areBytes ? channels.map((values) => Uint8Array.from(values)) : channels;
 }
 
-/** The colors in bytes, if bytes hold all that the columns say. */
-export function byteColors(columns: readonly FilledColumn[]): Uint8Array<ArrayBuffer> | null {
-  const channels = ["red", "green", "blue"].map((color) => columns.find(({ name }) => name === color)?.values);
-  const scale = channels[0] instanceof Uint8Array ? 1 : 257;
-  const Type = scale === 1 ? Uint8Array : Uint16Array;
-  if (!channels.every((values) => values instanceof Type && values.every((value) => value % scale === 0))) return null;
-  const colors = new Uint8Array(3 * channels[0]!.length);
-  for (let i = 0; i < colors.length; i++) colors[i] = channels[i % 3]![Math.floor(i / 3)]! / scale;
-  return colors;
-}
-
 /** The factor of the first spherical harmonic, 1 ÷ (2 √π). */
 const HARMONIC = 0.28209479177387814;
 

@@ -49,7 +49,9 @@ export class FilesWasm {
   readonly functions: Functions;
 
   constructor(module: WebAssembly.Module) {
-    this.functions = new WebAssembly.Instance(module, {}).exports as unknown as Functions;
+    // wasm-bindgen would keep JavaScript's values in a table, and there are none.
+    const glue = { "./hpr_bg.js": { __wbindgen_init_externref_table: () => undefined } };
+    this.functions = new WebAssembly.Instance(module, glue).exports as unknown as Functions;
   }
 
   text(): string {

@@ -1,6 +1,5 @@
 // Writes points in another format than the one they were read from.
-import { byteColors } from "../../formats/colors.js";
-import type { Content } from "../../formats/write/content.js";
+import { contentOf, type WrittenFormat } from "../../formats/write/content.js";
 import { finestScale, lasParts } from "../../formats/write/las.js";
 import { plyParts } from "../../formats/write/ply.js";
 import type { PointFile } from "./point-file.js";
@@ -8,10 +7,16 @@ import type { PointFile } from "./point-file.js";
 /** The endings of files that the points of all formats can be written to. */
 export const CONVERTED: readonly string[] = [".ply", ".las"];
 
-/** The points in another format. */
-export function converted(file: PointFile, indices: Uint32Array, ending: string): Iterable<Uint8Array> {
-  const content = contentOf(file, indices);
-  return ending === ".las" ? lasParts(content) : plyParts(content, file.crs ? [`CRS ${file.crs.name}`] : []);
+/** The points in another format, and what is changed. */
+export function converted(
+  file: PointFile,
+  indices: Uint32Array,
+  ending: string,
+): { parts: Iterable<Uint8Array>; notes: string[] } {
+  const format = ending.slice(1) as WrittenFormat;
+  const { content, notes } = contentOf(file, format, indices);
+  const comments = file.crs ? [`CRS ${file.crs.name}`] : [];
+  return { parts: format === "las" ? lasParts(content) : plyParts(content, comments), notes };
 }
 
 /** In words: what a file in another format lacks. */
@@ -21,10 +26,4 @@ export function lost({ las, crs, leftOut = [], unread = [], positions }: PointFi
   if (crs) said.push(`the coordinate system, but for its name ${crs.name}`);
   if (las && las.records.length > 0) said.push(`${las.records.length} × record of LAS`);
   return said;
-}
-
-function contentOf({ positions, columns, packed }: PointFile, indices: Uint32Array): Content {
-  const colors = packed ?? byteColors(columns);
-  const isColor = (name: string) => /^(red|green|blue)$/.test(name);
-  return { positions, colors, fields: columns.filter(({ name }) => !colors || !isColor(name)), indices };
 }

@@ -24,6 +24,26 @@ const NAMES: Readonly<Record<string, string>> = {
 }; // prettier-ignore
 const OWN_NAMES = new Set([3, 8].flatMap((format) => layoutOf(format)!.places.map(({ name }) => name)));
 
+/** The name of an extra column has 32 bytes, the last of which stays zero. */
+const LONGEST_NAME = 31;
+/** How readers call what each point has. */
+const STANDARD = [
+  ...[
+    "x",
+    "y",
+    "z",
+    "flagbyte",
+    "bitfields",
+    "synthetic",
+    "keypoint",
+    "withheld",
+    "overlap",
+    "scanangle",
+    "scananglerank",
+  ],
+  ...["scandirectionflag", "gpstime", "pointsourceid", "nir", "rawclassification", ...[...OWN_NAMES].map(bare)],
+];
+
 type Write = (view: DataView, at: number, index: number) => void;
 
 interface Extra {
@@ -56,7 +76,7 @@ export function* lasParts(
     taken.add(place.name);
     return [writerOf(place, field)];
   });
-  const left = [...named].filter(([name]) => !taken.has(name)).slice(0, MOST_EXTRAS);
+  const left = withOwnNames([...named].filter(([name]) => !taken.has(name)).slice(0, MOST_EXTRAS));
   const extras = extrasOf(left, las);
   const rowBytes = layout.bytes + extras.reduce((sum, { bytes }) => sum + bytes, 0);
 
@@ -83,6 +103,21 @@ export function* lasParts(
     }
     yield new Uint8Array(view.buffer);
   }
+}
+
+/** Readers take an extra column with the name of a standard one, or of another extra column, for a damaged file. */
+function withOwnNames(columns: readonly (readonly [string, Field])[]): [string, Field][] {
+  const used = new Set(STANDARD);
+  return columns.map(([name, field]) => {
+    let own = name.slice(0, LONGEST_NAME);
+    for (let i = 2; used.has(bare(own)); i++) own = `${name.slice(0, LONGEST_NAME - 3)} ${i}`;
+    used.add(bare(own));
+    return [own, field];
+  });
+}
+
+function bare(name: string): string {
+  return name.toLowerCase().replaceAll(/[ _]/g, "");
 }
 
 function nameOf(name: string): string {
@@ -151,7 +186,6 @@ function newExtra(name: string, field: Field): Extra {
   const kind = EXTRA_CODES.get(field.values.constructor) ?? 10;
   const description = new Uint8Array(DESCRIPTION);
   description[2] = kind;
-  // The name has 32 bytes, the last of which stays zero.
   new TextEncoder().encodeInto(name, description.subarray(4, 35));
   const write: Write = (row, at, index) => {
     setKind(row, at, kind, valueAt(field, index));
