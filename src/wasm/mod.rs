@@ -78,6 +78,7 @@ interface Answer extends ChosenRadius {
   exact: number;
   scales: [number, number, number];
 }
+interface CalibrationAnswer { thickness: number; recall: number[]; shown: number; isLow: boolean }
 interface MapAnswer {
   data: Float32Array<ArrayBuffer>;
   center: [number, number, number];

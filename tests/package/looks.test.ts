@@ -136,21 +136,34 @@ describe("a calibration", () => {
   const viewpoint = [0, 0, 0];
 
   it("finds the thickness at which a scanner sees its own points, in a worker too", async () => {
-    const { thickness, recall, options } = scan.calibrate([{ viewpoint, indices }]);
+    const found = scan.calibrate([{ viewpoint, indices }]);
+    const { thickness, recall, options } = found;
     expect(recall).toHaveLength(1);
     expect(recall[0]).toBeGreaterThanOrEqual(0.98);
     expect(options).toMatchObject({ looks: 3, thickness });
+    // The station measured all points, so none is hidden from it.
+    expect(found).toMatchObject({ shown: 0 });
+    expect(found).not.toHaveProperty("note");
     expect(scan.visibleFrom(viewpoint, options).count).toBe(Math.round(recall[0]! * scan.length));
     expect(scan.visibleFrom(viewpoint, { looks: 3, thickness: 0 }).count).toBeLessThan(0.97 * scan.length);
     const mask = new Uint8Array(scan.length).fill(1);
-    expect(scan.calibrate([{ viewpoint, mask }])).toEqual({ thickness, recall, options });
+    expect(scan.calibrate([{ viewpoint, mask }])).toEqual(found);
     const other = await WorkerPointCloud.create([...cells.values()].flat());
-    expect(await other.calibrate([{ viewpoint, indices }])).toEqual({ thickness, recall, options });
+    expect(await other.calibrate([{ viewpoint, indices }])).toEqual(found);
     await other.dispose();
     // A given thickness is only measured.
     const given = scan.calibrate([{ viewpoint, indices }], { thickness: 0 });
     expect(given.thickness).toBe(0);
     expect(given.recall[0]).toBeLessThan(0.97);
+  });
+
+  it("does not count points that cannot be seen", () => {
+    const whole = scan.calibrate([{ viewpoint, indices }]);
+    const copy = new PointCloud([...cells.values()].flat());
+    copy.append([...cells.values()].flat().map((x) => 1.1 * x));
+    copy.remove(Uint32Array.from({ length: scan.length }, (_, i) => scan.length + i));
+    const all = Uint32Array.from({ length: copy.length }, (_, i) => i);
+    expect(copy.calibrate([{ viewpoint, indices: all }])).toEqual(whole);
   });
 
   it.each<[RegExp, unknown]>([

@@ -19,7 +19,7 @@ import type { Camera } from "../query/camera.js";
 import type { Panorama, PanoramaOptions } from "../query/panorama-options.js";
 import type { VisibilityMapOptions } from "../query/map-options.js";
 import type { IlluminationOptions, ReconstructionOptions } from "../query/queries.js";
-import { type Calibration, calibration, type Station } from "../query/calibration.js";
+import { type Calibration, calibrationQuery, type Station } from "../query/calibration.js";
 import type { Placement } from "../query/placement.js";
 import type { ViewpointOrCamera } from "../query/seats.js";
 import type { SeenBy } from "../query/seen-by.js";
@@ -249,23 +249,23 @@ export class PointCloud {
   }
 
   /**
-   * Finds the smallest thickness of the looks at which scanners see the points that they measured. This
-   * is for scans that were thinned or put together, where no other rule tells what is surface. One
-   * thickness is tried after another, from every station: about ten views each.
+   * Finds the thickness of the looks at which scanners see most of the points that they measured, and few that are
+   * hidden from them. This is for scans that were thinned or put together, where no other rule tells what is surface.
+   * Thicknesses are tried from 0 upwards, from every station: about ten views each. A larger one is taken only if it
+   * shows a larger share of own points than of hidden ones, and half a percent more for each doubling.
    *
-   * @returns also the share of each station's own points that is seen: at least 0.985, or less if no
-   *   thickness was enough. Skipped and removed points are never seen. With a number as `thickness`,
-   *   only this one is tried.
+   * @returns also the share of each station's own points that is seen, and of otherwise hidden points. With a number as
+   *   `thickness`, only this one is tried.
    * @throws HprError `option` also for stations without points; otherwise as {@link PointCloud.visibleFrom}.
    */
   calibrate(stations: readonly Station[], options?: VisibilityOptions): Calibration {
     this.#core.requireOpen();
-    const trials = calibration(this, stations, options);
-    let step = trials.next();
-    while (step.done !== true) {
-      step = trials.next(this.visibleFrom(step.value.viewpoint, step.value.options).mask());
-    }
-    return step.value;
+    const { query, answer } = calibrationQuery(
+      { dimension: this.#core.dimension, length: this.length },
+      stations,
+      options,
+    );
+    return answer(this.#core.ask(query));
   }
 
   /** Asks all views of a task, one after another. */

@@ -108,6 +108,9 @@ const performers: { [K in QueryKind]: (target: Target, query: Query<K>) => Answe
     );
   },
 
+  calibrate: ({ instance, handle }, { viewpoints, ends, indices, settings }) =>
+    instance.call((bindings) => bindings.calibrate(handle, viewpoints, ends, indices, settings)),
+
   noise: ({ instance, handle, dimension }) => ({
     noise: dimension > 3 ? 0 : instance.call((bindings) => bindings.noise(handle)),
   }),

@@ -45,6 +45,7 @@ export interface Answers {
   sees: { seen: Uint8Array<ArrayBuffer> };
   autoRadius: ChosenRadius;
   noise: { noise: number };
+  calibrate: { thickness: number; recall: number[]; shown: number; isLow: boolean };
   visibilityMap: {
     data: Float32Array<ArrayBuffer>;
     viewpoint: [number, number, number];

@@ -1,9 +1,11 @@
 import { describe, HprError } from "../base/errors.js";
 import { allocating } from "../base/memory.js";
 import { plainView, typedArrayType } from "../base/typed-arrays.js";
+import type { Answers } from "./answers.js";
 import { givenOptions } from "./options.js";
-import { readIndices, type Viewpoint } from "./positions.js";
-import { VIEW_OPTIONS, type VisibilityOptions } from "./view-options.js";
+import { readIndices, readViewpoint, type Viewpoint } from "./positions.js";
+import type { Query } from "./queries.js";
+import { refuseScores, requireSpace, VIEW_OPTIONS, viewSettings, type VisibilityOptions } from "./view-options.js";
 
 /** Where a scanner stood, and the points that it measured, by exactly one of `indices` and `mask`. */
 export interface Station {
@@ -16,62 +18,51 @@ export interface Station {
 
 /** How a cloud is to be asked, so that its scanners see the points that they measured. */
 export interface Calibration {
-  /** The smallest thickness that was found, in the cloud's units. */
+  /** In the cloud's units. */
   readonly thickness: number;
-  /** For each station, the share of its own points that `options` see, from 0 to 1. */
+  /**
+   * For each station, the share of its own points that `options` see, from 0 to 1. Points that cannot be seen do not
+   * count: removed and skipped ones, and those outside of `within`.
+   */
   readonly recall: number[];
+  /** Of the points that a station did not measure and does not see with a thickness of 0, the share that it sees with this one. */
+  readonly shown: number;
   /** The given options with `looks` and this `thickness`. */
   readonly options: VisibilityOptions;
+  /** Says so if the stations see less than 90 % of their own points. */
+  readonly note?: string;
 }
 
-/** So many of the points of each station must be seen. */
-const ENOUGH = 0.985;
-/** The first thickness, in spacings, how often it is doubled at most, and how often halves are tried then. */
-const FIRST = 1 / 8;
-const DOUBLINGS = 16;
-const HALVINGS = 3;
-
-/** A view that a calibration needs. It goes on with the mask of its answer. */
-export interface TrialView {
-  viewpoint: Viewpoint;
-  options: VisibilityOptions;
+/** The stations: x, y, z of each, the indices of all of them, and where those of each end. */
+export interface Stations {
+  viewpoints: Float64Array<ArrayBuffer>;
+  ends: Uint32Array<ArrayBuffer>;
+  indices: Uint32Array<ArrayBuffer>;
 }
 
-/** Looks for the smallest thickness at which each station sees its own points. */
-export function* calibration(
-  { length, spacing }: { length: number; spacing: number },
+/** Reads the stations of a cloud of so many indices, and the options, which look three times by default. */
+export function calibrationQuery(
+  { dimension, length }: { dimension: number; length: number },
   stations: unknown,
   options: unknown,
-): Generator<TrialView, Calibration, Uint8Array> {
+): { query: Query<"calibrate">; answer: (found: Answers["calibrate"]) => Calibration } {
+  requireSpace("calibrate", dimension);
   const given: VisibilityOptions = { looks: 3, ...givenOptions(options, VIEW_OPTIONS) };
+  refuseScores(given, "calibrate");
+  const settings = viewSettings({ ...given }, dimension);
   const own = readStations(stations, length);
-
-  function* tried(thickness: number): Generator<TrialView, Calibration, Uint8Array> {
-    const trial = { ...given, thickness };
-    const recall: number[] = [];
-    for (const { viewpoint, indices } of own) {
-      const mask = yield { viewpoint, options: trial };
-      recall.push(indices.reduce((seen, index) => seen + mask[index]!, 0) / indices.length);
-    }
-    return { thickness, recall, options: trial };
-  }
-  const isEnough = ({ recall }: Calibration) => recall.every((share) => share >= ENOUGH);
-
-  if (typeof given.thickness === "number" || spacing === 0) {
-    return yield* tried(typeof given.thickness === "number" ? given.thickness : 0);
-  }
-  let best = yield* tried(FIRST * spacing);
-  let least = 0;
-  for (let k = 0; k < DOUBLINGS && !isEnough(best); k++) {
-    least = best.thickness;
-    best = yield* tried(2 * best.thickness);
-  }
-  for (let k = 0; k < HALVINGS && least > 0 && isEnough(best); k++) {
-    const between = yield* tried(Math.sqrt(least * best.thickness));
-    if (isEnough(between)) best = between;
-    else least = between.thickness;
-  }
-  return best;
+  const ends = own.reduce<number[]>((ends, { indices }) => [...ends, (ends.at(-1) ?? 0) + indices.length], []);
+  const indices = allocating(`${ends.at(-1)} indices`, () => new Uint32Array(ends.at(-1)!));
+  own.forEach((station, i) => indices.set(station.indices, ends[i]! - station.indices.length));
+  const viewpoints = Float64Array.from(own.flatMap(({ viewpoint }) => readViewpoint(viewpoint, 3)));
+  const query = { kind: "calibrate" as const, viewpoints, ends: Uint32Array.from(ends), indices, settings };
+  const answer = ({ thickness, recall, shown, isLow }: Answers["calibrate"]): Calibration => {
+    const mean = recall.reduce((sum, share) => sum + share, 0) / recall.length;
+    const seen = Math.floor(100 * mean);
+    const note = `the stations see ${seen} % of their own points: more thickness would show more hidden points than own ones`;
+    return { thickness, recall, shown, options: { ...given, thickness }, ...(isLow && { note }) };
+  };
+  return { query, answer };
 }
 
 function readStations(stations: unknown, length: number) {

@@ -1,5 +1,6 @@
 import { describe, HprError } from "../base/errors.js";
 import { allocating } from "../base/memory.js";
+import type { Stations } from "./calibration.js";
 import { readCamera } from "./camera.js";
 import { mapNumbers, type MapNumbers } from "./map-options.js";
 import { type PanoramaSize, panoramaSize } from "./panorama-options.js";
@@ -68,6 +69,7 @@ export interface Questions {
   sees: { viewpoint: number[]; positions: Float64Array; settings: ViewSettings };
   autoRadius: { viewpoint: number[]; settings: ViewSettings };
   noise: object;
+  calibrate: Stations & { settings: ViewSettings };
   reconstruct: { viewpoint: number[]; settings: ViewSettings; maxEdge: number | undefined };
   illuminate: {
     lights: Float64Array<ArrayBuffer>;

@@ -18,7 +18,7 @@ import {
 } from "../query/options.js";
 import type { Place } from "../query/place.js";
 import { isFloatArray, type Positions, readIndices, readPositions, type Viewpoint } from "../query/positions.js";
-import { type Calibration, calibration, type Station } from "../query/calibration.js";
+import { type Calibration, calibrationQuery, type Station } from "../query/calibration.js";
 import { type SurveyName, surveyQuestion, SURVEYS } from "../query/survey-methods.js";
 import { surveyed, type SurveyQuestion } from "../query/surveys.js";
 import type { Panorama, PanoramaOptions } from "../query/panorama-options.js";
@@ -223,18 +223,15 @@ export class WorkerPointCloud {
   }
 
   /**
-   * Finds the smallest thickness at which scanners see their own points; see `PointCloud.calibrate`.
+   * Finds the thickness at which scanners see their own points; see `PointCloud.calibrate`.
    *
    * @throws HprError (as a rejection) the same as `PointCloud.calibrate`.
    */
   async calibrate(stations: readonly Station[], options?: VisibilityOptions): Promise<Calibration> {
-    const trials = calibration(this, stations, options);
-    let step = trials.next();
-    while (step.done !== true) {
-      const { viewpoint, options: trial } = step.value;
-      step = trials.next((await this.visibleFrom(viewpoint, trial)).mask());
-    }
-    return step.value;
+    this.#queue.requireOpen();
+    const { dimension } = this.#settings;
+    const { query, answer } = calibrationQuery({ dimension, length: this.length }, stations, options);
+    return answer(await this.#queue.query(query, { owner: this }));
   }
 
   /**
