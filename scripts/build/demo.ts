@@ -8,7 +8,7 @@ import { unlessUnchanged } from "../lib/stamp.js";
 export async function buildDemo(): Promise<void> {
   const work = {
     name: "demo",
-    inputs: ["www", "dist", "package.json", "package-lock.json", "THIRD_PARTY.md"],
+    inputs: ["www", "dist", "package.json", "package-lock.json", "THIRD_PARTY.md", "docs/page.webp"],
     ignore: ["www/dist", "www/public/samples"],
     outputs: ["www/dist/index.html", "www/dist/hidden-point-cloud.js", "www/dist/hidden-point-cloud.d.ts"],
   };
@@ -24,6 +24,8 @@ export async function buildDemo(): Promise<void> {
     }
     // The licenses of the bundled code require it.
     copyFileSync(inRoot("THIRD_PARTY.md"), inRoot("www/dist/THIRD_PARTY.md"));
+    // The picture that other sites show beside a link to the page.
+    copyFileSync(inRoot("docs/page.webp"), inRoot("www/dist/preview.webp"));
   });
   say(`Demo page and element: ${result}`);
 }

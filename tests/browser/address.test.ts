@@ -144,7 +144,7 @@ test("?src of a page instead of a cloud is refused in a plain sentence, and the 
   served.set("clouds/lost.ply", readFileSync(new URL("../../www/index.html", import.meta.url)));
   const page = await openPage("?src=clouds/lost.ply&sample=bunny");
   const { sentence } = await reached(page, "error");
-  expect(sentence).toMatch(/lost\.ply cannot be read: it does not begin like a PLY file/);
+  expect(sentence).toMatch(/lost\.ply cannot be read: it is XML or a page of the web/);
   await page.locator('#status[data-total="1839"]').waitFor();
   const now = await settled(page);
   expect(now.state).toBe("error");

@@ -1,7 +1,7 @@
 // Marks and stations in the address.
 import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
-import { addressWritten, openPage, openReady, served, upToDate } from "./support.js";
+import { addressWritten, openPage, openReady, served, site, upToDate } from "./support.js";
 
 const tool = (page: Page, name: string) => page.locator("#tool-bar").getByRole("button", { name });
 
@@ -54,6 +54,29 @@ test("a link has the distances, labels and stations, and opens with them", async
   await page.locator("#sample").selectOption("dragon_res4");
   await page.locator('#status[data-total="5205"]').waitFor();
   expect([...(await addressWritten(page)).keys()]).toEqual(["sample"]);
+});
+
+test("the code for another page shows the present view: its element has the same answer", async () => {
+  const page = await openReady("?sample=bunny&view=1,8,-12&target=0,5,0&fov=30&size=1.4&exponent=2");
+  const { visible, viewpoint } = await upToDate(page);
+  await tool(page, "Export").click();
+  await page.locator("#copy-element").click();
+  const code = (await page.locator("#export-result").textContent())!.replace("Copied: ", "");
+  const [script, element] = code.split("\n");
+  expect(script).toBe(`<script type="module" src="${site.address}hidden-point-cloud.js"></script>`);
+  served.set("other.html", new TextEncoder().encode(`<!doctype html>${code}`));
+  await page.goto(`${site.address}other.html`);
+  const shown = await page.evaluate(async () => {
+    const found = document.querySelector("hidden-point-cloud") as HTMLElement & {
+      ready: Promise<void>;
+      visibleCount: number;
+      viewpoint: number[];
+    };
+    await customElements.whenDefined("hidden-point-cloud");
+    await found.ready;
+    return { visible: found.visibleCount, viewpoint: found.viewpoint };
+  });
+  expect(shown, element).toEqual({ visible, viewpoint });
 });
 
 test("marks that do not suit the cloud are left out, and a sentence says so", async () => {

@@ -121,7 +121,7 @@ test("if the cloud of a story cannot be had, a message says so and the story end
   });
   await expect
     .poll(() => page.locator("#message p").textContent())
-    .toBe("Room from inside, 300k could not be read: a part of this page could not be downloaded.");
+    .toBe("Room behind a wall, 300k could not be read: a part of this page could not be downloaded.");
   expect(await page.locator("#story").count()).toBe(0);
   expect((await addressWritten(page)).get("sample")).toBe("bunny");
 });

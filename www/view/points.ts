@@ -226,12 +226,15 @@ export class CloudPoints {
     this.ghost.material.uniforms["cover"]!.value = display(this.#ghostly ? theme.hiddenDimmed : theme.hidden);
   }
 
-  /** `size`: 1 for points that touch. Returns the width of a typical point in the cloud's units. */
-  setPointSize(size: number): number {
+  /**
+   * `size`: 1 for points that touch. `through`: the visible points are small, so that the hidden ones behind them show.
+   * Returns the width of a typical point in the cloud's units.
+   */
+  setPointSize(size: number, through: boolean): number {
     const set = (draw: Draw, spacings: number) => (draw.material.uniforms["width"]!.value = spacings * this.#spacing);
     set(this.ghost, HIDDEN_WIDTH);
     set(this.all, SMALL);
-    return set(this.solid, COVERING * size);
+    return set(this.solid, (through ? SMALL : COVERING) * size);
   }
 
   dispose(): void {

@@ -335,11 +335,11 @@ export class Viewer {
     this.stage.invalidate();
   }
 
-  #applyLook({ hidden: chosen, compare, size, fieldOfView }: Settings): void {
+  #applyLook({ hidden: chosen, freeze, compare, size, fieldOfView }: Settings): void {
     const { points } = this.#shown!;
     points.show(compare === null ? chosen : "off");
     this.stage.setAll({ alone: compare ?? 0 });
-    this.stage.setPointWidth(points.setPointSize(size));
+    this.stage.setPointWidth(points.setPointSize(size, chosen !== "off" && freeze === null));
     this.stage.setFieldOfView(fieldOfView);
   }
 
