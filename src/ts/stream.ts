@@ -1,10 +1,10 @@
 export { HprError, type HprErrorCode } from "./base/errors.js";
 export type { ResolvedInversion } from "./query/view-options.js";
 export type { Crs, Unit } from "./formats/las/crs.js";
-export { OctreeStep } from "./stream/look.js";
+export { OctreeStep } from "./stream/view.js";
 export { type Octree, openOctree } from "./stream/octree.js";
 export type { OctreeOptions, OctreeProgress, OctreeViewOptions } from "./stream/options.js";
-export type { Fetch } from "./stream/request.js";
+export type { Fetch } from "./stream/remote.js";
 export type { PotreeFiles, RangeReader } from "./stream/source.js";
-export type { VisibleNode } from "./stream/survivors.js";
+export type { VisibleNode } from "./stream/view.js";
 export type { Box, NodePoints, Triple } from "./stream/tree.js";

@@ -3,7 +3,7 @@ import { HiddenPointFilter as Filter } from "./three/filter.js";
 import { patchNodes } from "./three/map-nodes.js";
 
 export { HprError, type HprErrorCode } from "./base/errors.js";
-export type { HiddenPointNodesFilterEvents } from "./nodes/gathered-filter.js";
+export type { HiddenPointNodesFilterEvents } from "./nodes/gathered.js";
 export type { HiddenPointNodesFilterOptions } from "./nodes/filter.js";
 export type { HiddenPointFilterEvents } from "./three/filter.js";
 export type { HiddenPointFilterOptions } from "./three/options.js";

@@ -14,7 +14,7 @@ import { givenOptions } from "../query/options.js";
 import { VIEW_OPTIONS, type VisibilityOptions } from "../query/view-options.js";
 import type { Visibility } from "../cloud/visibility.js";
 import type { VisibilityMap } from "../cloud/visibility-map.js";
-import { isBinary, positionsOf } from "./data.js";
+import { isBinary, positionsOf } from "./frame.js";
 import { Frame } from "./frame.js";
 import { LayerCloud } from "./layer-cloud.js";
 import { MapExtension, type MapOnCard, textureOf } from "./map-extension.js";

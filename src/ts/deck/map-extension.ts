@@ -10,7 +10,7 @@ export interface MapOnCard {
 }
 
 /** What `Device` of luma.gl is used for. */
-export interface TextureMaker {
+interface TextureMaker {
   readonly type: string;
   createTexture(props: object): { destroy(): void };
 }

@@ -4,8 +4,8 @@ import { describe, HprError } from "../base/errors.js";
 import { requireUniformScale } from "../three/cameras.js";
 import { patchMaterial, type PatchMaterial } from "../three/map-material.js";
 import { type HiddenPointFilterOptions, oneOf } from "../three/options.js";
-import { GatheredFilter } from "./gathered-filter.js";
-import type { CloudNode } from "./node.js";
+import { GatheredFilter } from "./gathered.js";
+import type { CloudNode } from "./node-set.js";
 import { NodeSet } from "./node-set.js";
 
 /** The options of a `HiddenPointFilter` for the cloud of all nodes, and a function that chooses the nodes. */

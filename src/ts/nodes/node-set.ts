@@ -1,16 +1,141 @@
-import type { Object3D, Points } from "three";
+import { Matrix4, type Object3D, type Points } from "three";
 
-import { isDimmed } from "../three/dimmed.js";
+import { HprError } from "../base/errors.js";
 import type { VisibilityMap } from "../cloud/visibility-map.js";
+import { versionOf } from "../three/attribute.js";
+import { isDimmed } from "../three/dimmed.js";
+import { Display } from "../three/display.js";
+import { isFiltered, requireUnfiltered } from "../three/drawn-points.js";
 import { MapTextures } from "../three/mapped-points.js";
-import { requirePoints } from "../three/options.js";
-import type { FilterSettings } from "../three/options.js";
-import type { NodesDrawing } from "./gathered-filter.js";
-import type { Refused } from "./gathered.js";
-import { CloudNode } from "./node.js";
+import { type FilterSettings, requirePoints } from "../three/options.js";
+import type { GatheredNode, NodesDrawing, Refused } from "./gathered.js";
+
+/**
+ * Writes the matrix from an object's space to that of an object above it. It is not computed through world
+ * coordinates: their rounding would separate points that are equal in two nodes.
+ */
+export function placeIn(root: Object3D, object: Object3D, place: Matrix4): Matrix4 {
+  if (object === root) return place.identity();
+  const holder = holderOf(root, object);
+  if (object.matrixAutoUpdate) object.updateMatrix();
+  return holder === null ? place.copy(object.matrix) : placeIn(root, holder, place).multiply(object.matrix);
+}
+
+/**
+ * The object that the matrix of `object` is relative to. In the octrees of potree-core, nodes are children of nodes, but each
+ * node is drawn relative to the octree.
+ */
+function holderOf(root: Object3D, object: Object3D): Object3D | null {
+  for (let at = object.parent; at !== null && at !== root; at = at.parent) {
+    if ("pcoGeometry" in at) return at;
+  }
+  return object.parent === null || "pcoGeometry" in root ? null : object.parent;
+}
+
+const IDENTITY = new Matrix4();
+
+/** One node: its points, their place in the root's space, and the part of them that is drawn. */
+export class CloudNode implements GatheredNode {
+  readonly points: Points;
+  readonly display: Display;
+  /** The last frame in which the node was present. */
+  seen = -1;
+  /** Grows with every change of the node's points. */
+  revision = 1;
+  readonly #settings: NodesSettings;
+  readonly #root: Object3D;
+  /** The way to the root's space, now and when the points were read. */
+  readonly #place = new Matrix4();
+  readonly #read = new Matrix4();
+  /** The state in which the node was refused. The node is not read again until its state changes. */
+  #refused: readonly unknown[] | undefined;
+  /** Whether its points were read in its present revision. */
+  #isRead = false;
+
+  /** @throws HprError `option` if its geometry has a filter already, or if its material cannot be dimmed. */
+  constructor(points: Points, root: Object3D, settings: NodesSettings, textures: MapTextures) {
+    requireUnfiltered(points.geometry);
+    this.points = points;
+    this.display = new Display(points, settings, textures);
+    this.#settings = settings;
+    this.#root = root;
+    this.display.isPending = settings.hidesPending;
+  }
+
+  get isRefused(): boolean {
+    return this.#refused !== undefined;
+  }
+
+  /** Whether the node has changed since it was read or refused. Returns true only once for each change. */
+  noticeChange(): boolean {
+    if (!this.#isRead || this.#isUnchanged()) return false;
+    this.revision += 1;
+    this.#isRead = false;
+    this.#refused = undefined;
+    this.display.leaveOthers();
+    if (!this.display.isAnswered) this.display.isPending = this.#settings.hidesPending;
+    return true;
+  }
+
+  /**
+   * Reads the positions of the node's points in the root's space.
+   *
+   * @throws HprError the errors of `DrawnPoints.take`, and `non-finite`. Then the node is refused.
+   */
+  read(): Float32Array | Float64Array {
+    this.#isRead = true;
+    try {
+      const { numbers } = this.display.drawn.take(this.#matrix());
+      this.#read.copy(this.#place);
+      if (this.#settings.nonFinite === "error") requireFinite(numbers);
+      return numbers;
+    } catch (error) {
+      this.display.leave();
+      this.#refused = this.#state();
+      throw error;
+    }
+  }
+
+  /** Draws the node by a map of the whole cloud. */
+  map(camera: unknown, map: VisibilityMap): void {
+    this.display.map(camera, map, this.#matrix());
+  }
+
+  #isUnchanged(): boolean {
+    const refused = this.#refused;
+    if (refused !== undefined) return this.#state().every((value, i) => Object.is(value, refused[i]));
+    return this.display.drawn.isUnchanged && placeIn(this.#root, this.points, this.#place).equals(this.#read);
+  }
+
+  #matrix(): readonly number[] | undefined {
+    const place = placeIn(this.#root, this.points, this.#place);
+    return place.equals(IDENTITY) ? undefined : place.elements;
+  }
+
+  /** The state that a refusal can depend on. */
+  #state(): unknown[] {
+    const geometry = this.points.geometry as Partial<Points["geometry"]> | undefined;
+    const position = geometry?.attributes?.["position"];
+    const version = typeof position === "object" && (position as unknown) !== null ? versionOf(position) : 0;
+    // If the geometry has another filter, its index and draw range do not matter here.
+    const isFree = !isFiltered(geometry);
+    const { index, drawRange } = (isFree ? geometry : undefined) ?? {};
+    return [geometry, position, version, isFree, index, index?.version, drawRange?.start, drawRange?.count];
+  }
+}
+
+function requireFinite(numbers: Float32Array | Float64Array): void {
+  const strays = new Set<number>();
+  numbers.forEach((x, i) => Number.isFinite(x) || strays.add(Math.floor(i / 3)));
+  const [first] = strays;
+  if (first !== undefined) {
+    const message = `${strays.size} point(s) have a coordinate that is NaN or infinite, the first at index ${first}`;
+    throw new HprError("non-finite", message);
+  }
+}
 
 /** The settings of a filter, which may change, and how nodes are chosen and drawn. */
-export interface NodesSettings extends FilterSettings {
+interface NodesSettings extends FilterSettings {
   hidesPending: boolean;
   nodes: (() => Iterable<Points>) | undefined;
 }

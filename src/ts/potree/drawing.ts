@@ -1,12 +1,135 @@
 import type { Camera } from "three";
 
+import { allocating } from "../base/memory.js";
 import { override } from "../base/override.js";
 import type { VisibilityMap } from "../cloud/visibility-map.js";
-import type { NodesDrawing } from "../nodes/gathered-filter.js";
-import { MODE, withAnswer } from "./shader.js";
-import { Textures } from "./textures.js";
-import { Tile } from "./tiles.js";
+import type { NodesDrawing } from "../nodes/gathered.js";
+import { withTest } from "../three/map-material.js";
+import { DIMMED } from "../three/options.js";
+import { Tile } from "./viewer.js";
 import type { Octree, OctreeNode, PotreeRenderer, PotreeShader, PotreeViewer } from "./viewer.js";
+
+/**
+ * What `hprMode` is: all points are drawn; the map decides; the last answer does, which has one byte for each point.
+ * Potree numbers the points of a node in its attribute `indices`.
+ */
+const MODE = { all: 0, map: 1, answer: 2 } as const;
+
+/** A point that is left out is moved out of the picture. A dimmed one cannot be picked either. */
+const MAIN = `
+uniform highp sampler2D hprAnswer;
+uniform highp vec2 hprSize;
+uniform highp float hprFirst;
+bool hprLeftOut() {
+  if (hprMode < 1.5) return hprHidden(hprTurn * (position - hprEye));
+  highp float i = hprFirst + dot(floor(indices * 255.0 + 0.5), vec4(1.0, 256.0, 65536.0, 16777216.0));
+  highp float row = floor((i + 0.5) / hprSize.x);
+  return texture2D(hprAnswer, (vec2(i - hprSize.x * row, row) + 0.5) / hprSize).r < 0.5;
+}
+void main() {
+  bool isLeftOut = hprMode > 0.5 && hprLeftOut();
+#if defined(color_type_indices) || !defined(hpr_dim)
+  if (isLeftOut) {
+    gl_Position = vec4(0.0, 0.0, 2.0, 1.0);
+    return;
+  }
+#endif
+  hprMain();
+#if defined(hpr_dim)
+  if (isLeftOut) vColor *= ${DIMMED};
+#endif
+}
+`;
+
+/** The vertex shaders that were changed, by their text before. Potree compiles each once. */
+const changed = new Map<string, string | undefined>();
+
+/** Potree's vertex shader with the test. Undefined if it has no `main`. */
+function withAnswer(vertexShader: string, dims: boolean): string | undefined {
+  const key = `${dims} ${vertexShader}`;
+  if (!changed.has(key)) changed.set(key, withTest(vertexShader, (dims ? "\n#define hpr_dim" : "") + MAIN));
+  return changed.get(key);
+}
+
+type Context = WebGLRenderingContext | WebGL2RenderingContext;
+
+/** The texture of maps and that of answers, in Potree's own context. It may be one of WebGL 1. */
+class Textures {
+  readonly #gl: Context;
+  readonly #textures = new Map<object, WebGLTexture>();
+  /** The units that they are bound to: the last ones, which Potree does not use. */
+  readonly units: readonly [map: number, answer: number];
+  /** Whether vertex shaders can read maps. */
+  readonly readsFloats: boolean;
+
+  constructor(gl: Context) {
+    this.#gl = gl;
+    const units = gl.getParameter(gl.MAX_COMBINED_TEXTURE_IMAGE_UNITS) as number;
+    this.units = [units - 1, units - 2];
+    const reads = (gl.getParameter(gl.MAX_VERTEX_TEXTURE_IMAGE_UNITS) as number) > 1;
+    this.readsFloats = reads && ("texStorage2D" in gl || gl.getExtension("OES_texture_float") !== null);
+  }
+
+  /** Makes room for the bytes of this number of points. */
+  bytesFor(points: number): { bytes: Uint8Array; size: readonly [number, number] } {
+    const width = Math.min(this.#gl.getParameter(this.#gl.MAX_TEXTURE_SIZE) as number, 4096);
+    const height = Math.max(1, Math.ceil(points / width));
+    return { bytes: allocating(`${points} bytes`, () => new Uint8Array(width * height)), size: [width, height] };
+  }
+
+  /** Copies a map to the card. */
+  uploadMap(key: object, { data }: VisibilityMap): void {
+    const gl = this.#gl;
+    const inner = "R32F" in gl ? gl.R32F : gl.LUMINANCE;
+    this.#upload(key, 0, inner, [256, Math.max(1, data.length / 256)], gl.FLOAT, data.length > 0 ? data : null);
+  }
+
+  /** Copies an answer to the card. */
+  uploadBytes(key: object, bytes: Uint8Array, size: readonly [number, number]): void {
+    const gl = this.#gl;
+    this.#upload(key, 1, "R8" in gl ? gl.R8 : gl.LUMINANCE, size, gl.UNSIGNED_BYTE, bytes);
+  }
+
+  bind(key: object, which: 0 | 1): void {
+    const gl = this.#gl;
+    gl.activeTexture(gl.TEXTURE0 + this.units[which]);
+    gl.bindTexture(gl.TEXTURE_2D, this.#textures.get(key) ?? null);
+  }
+
+  drop(key: object): void {
+    this.#gl.deleteTexture(this.#textures.get(key) ?? null);
+    this.#textures.delete(key);
+  }
+
+  dispose(): void {
+    for (const key of [...this.#textures.keys()]) this.drop(key);
+  }
+
+  #upload(
+    key: object,
+    which: 0 | 1,
+    inner: number,
+    [width, height]: readonly [number, number],
+    type: number,
+    data: Float32Array | Uint8Array | null,
+  ): void {
+    const gl = this.#gl;
+    const isNew = !this.#textures.has(key);
+    if (isNew) this.#textures.set(key, gl.createTexture());
+    this.bind(key, which);
+    gl.pixelStorei(gl.UNPACK_FLIP_Y_WEBGL, false);
+    gl.pixelStorei(gl.UNPACK_PREMULTIPLY_ALPHA_WEBGL, false);
+    gl.pixelStorei(gl.UNPACK_ALIGNMENT, 1);
+    gl.texImage2D(gl.TEXTURE_2D, 0, inner, width, height, 0, "RED" in gl ? gl.RED : gl.LUMINANCE, type, data);
+    if (isNew) {
+      gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.NEAREST);
+      gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MAG_FILTER, gl.NEAREST);
+      gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_S, gl.CLAMP_TO_EDGE);
+      gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_T, gl.CLAMP_TO_EDGE);
+    }
+    gl.activeTexture(gl.TEXTURE0);
+  }
+}
 
 /** The points of an answer, one byte for each, and where those of a node begin. */
 interface Answer {

@@ -1,9 +1,9 @@
 import { HprError } from "../base/errors.js";
-import { GatheredFilter } from "../nodes/gathered-filter.js";
+import { GatheredFilter } from "../nodes/gathered.js";
 import type { Space } from "../three/cameras.js";
 import type { HiddenPointFilterOptions } from "../three/options.js";
 import { PotreeDrawing } from "./drawing.js";
-import type { Tile } from "./tiles.js";
+import type { Tile } from "./viewer.js";
 import { type PotreeViewer, requireViewer } from "./viewer.js";
 
 /** The options of a `HiddenPointFilter`. Potree has no second material for hidden points. */

@@ -3,7 +3,7 @@ import { flag, givenOptions, integer, listener, pick } from "../query/options.js
 import { readViewpoint } from "../query/positions.js";
 import type { ResolvedInversion } from "../query/view-options.js";
 import { readSignal } from "../worker/abort.js";
-import type { Fetch, Network } from "./request.js";
+import type { Fetch, Network } from "./remote.js";
 import { compiler } from "../files/wasm.js";
 import type { CompileFiles } from "../formats/wasm.js";
 import type { InitInput } from "../instance/compile.js";

@@ -1,7 +1,7 @@
 import { asError, describe, HprError, typeTag } from "../base/errors.js";
 import { untilAborted } from "../worker/abort.js";
 import { RemoteFile, type Together } from "./remote.js";
-import type { Network } from "./request.js";
+import type { Network } from "./remote.js";
 
 /**
  * Reads the bytes of a file from one offset up to another. The result is shorter only if the file

@@ -1,12 +1,210 @@
+import { concatenated } from "../base/memory.js";
+import { Horizon } from "../cloud/horizon.js";
 import type { MergeOptions } from "../cloud/merge.js";
 import type { ResolvedInversion } from "../query/view-options.js";
 import { untilAborted, whenAborted } from "../worker/abort.js";
-import type { Loaded, NodeCache } from "./cache.js";
+import type { Loaded, NodeCache } from "./tree.js";
 import type { OctreeProgress, ViewRequest } from "./options.js";
-import { NodeQueue } from "./queue.js";
-import { concatenated } from "../base/memory.js";
-import { Survivors, type VisibleNode } from "./survivors.js";
-import { type OctreeNode, subtree, type Tree } from "./tree.js";
+import { type NodePoints, type OctreeNode, subtree, type Tree } from "./tree.js";
+
+interface Waiting {
+  node: OctreeNode;
+  /** How large the node looks from the viewpoint: its width by its distance. */
+  size: number;
+  number: number;
+}
+
+/** Nodes that wait to be read. The one that looks largest comes first. A node comes after its parent. */
+class NodeQueue {
+  readonly #viewpoint: readonly number[];
+  /** A binary heap. */
+  readonly #heap: Waiting[] = [];
+  #added = 0;
+
+  constructor(viewpoint: readonly number[]) {
+    this.#viewpoint = viewpoint;
+  }
+
+  get nodes(): OctreeNode[] {
+    return this.#heap.map(({ node }) => node);
+  }
+
+  push(node: OctreeNode): void {
+    const heap = this.#heap;
+    heap.push({ node, size: 2 ** -node.depth / this.#distance(node), number: this.#added++ });
+    let at = heap.length - 1;
+    while (at > 0) {
+      const above = (at - 1) >> 1;
+      if (!isBefore(heap[at]!, heap[above]!)) {
+        return;
+      }
+      this.#swap(at, above);
+      at = above;
+    }
+  }
+
+  pop(): OctreeNode | undefined {
+    const heap = this.#heap;
+    const first = heap[0];
+    const last = heap.pop();
+    if (heap.length > 0) {
+      heap[0] = last!;
+      this.#sink();
+    }
+    return first?.node;
+  }
+
+  #sink(): void {
+    const heap = this.#heap;
+    let at = 0;
+    for (;;) {
+      let next = at;
+      for (const below of [2 * at + 1, 2 * at + 2]) {
+        if (below < heap.length && isBefore(heap[below]!, heap[next]!)) {
+          next = below;
+        }
+      }
+      if (next === at) {
+        return;
+      }
+      this.#swap(at, next);
+      at = next;
+    }
+  }
+
+  #swap(a: number, b: number): void {
+    const heap = this.#heap;
+    [heap[a], heap[b]] = [heap[b]!, heap[a]!];
+  }
+
+  /** 0 inside of the node's box. */
+  #distance({ min, max }: OctreeNode): number {
+    const gaps = this.#viewpoint.map((at, axis) => Math.max(min[axis]! - at, at - max[axis]!, 0));
+    return Math.hypot(...gaps);
+  }
+}
+
+function isBefore(a: Waiting, b: Waiting): boolean {
+  if (a.size !== b.size) {
+    return a.size > b.size;
+  }
+  return a.node.depth === b.node.depth ? a.number < b.number : a.node.depth < b.node.depth;
+}
+
+/** The visible points of one node. */
+export interface VisibleNode {
+  /** The name of the node in its format, such as `2-0-1-3` (COPC) or `r046` (Potree). */
+  readonly key: string;
+  /** The numbers of the visible points among the node's points, ascending. */
+  readonly indices: Uint32Array;
+  /** x, y, z of each of them. */
+  readonly positions: Float64Array;
+  /** Red, green and blue of each of them, as the file has them. Undefined without the option `colors`, or if the file has none. */
+  readonly colors: Uint16Array | undefined;
+}
+
+/** The horizon grows when this many points wait to join it, or this share of the points in it. */
+const FEW = 10_000;
+const SHARE = 1 / 4;
+
+/**
+ * The points of the nodes so far that may be visible, and the horizon that hides the others.
+ *
+ * What the horizon hides is hidden in the whole cloud. When all nodes were screened, the points that
+ * are left are exactly the visible points.
+ */
+class Survivors {
+  readonly #horizon: Horizon;
+  /** The points in the horizon that are visible among them. */
+  #inside: VisibleNode[] = [];
+  /** The points that are not in the horizon yet, and that it does not hide. */
+  #waiting: VisibleNode[] = [];
+  #count = 0;
+  #waitingCount = 0;
+
+  constructor(viewpoint: readonly number[], options: MergeOptions) {
+    this.#horizon = new Horizon(viewpoint, options);
+  }
+
+  /** The number of points that are kept. */
+  get count(): number {
+    return this.#count;
+  }
+
+  /** Whether enough points wait for the horizon to grow. */
+  get isDue(): boolean {
+    const inside = this.#count - this.#waitingCount;
+    return this.#waitingCount > 0 && this.#waitingCount >= (inside === 0 ? 1 : Math.max(FEW, SHARE * inside));
+  }
+
+  get isWaiting(): boolean {
+    return this.#waitingCount > 0;
+  }
+
+  /** The visible points among those that were in the horizon when it last grew. The list does not change. */
+  get visible(): readonly VisibleNode[] {
+    return this.#inside;
+  }
+
+  /** Whether all points of a node and of the nodes below it are hidden. */
+  hides({ min, max }: OctreeNode): boolean {
+    // A cell outside of the file's own box has no room for points.
+    return min.every((least, axis) => least <= max[axis]!) && this.#horizon.hidesBox(min, max);
+  }
+
+  /** Takes up the points of a node that the horizon does not hide. */
+  add(node: OctreeNode, { positions, colors }: NodePoints): void {
+    const indices = Uint32Array.from({ length: positions.length / 3 }, (_, i) => i);
+    const part = this.#screened({ key: node.key, indices, positions, colors });
+    if (part.indices.length > 0) {
+      this.#waiting.push(part);
+      this.#waitingCount += part.indices.length;
+      this.#count += part.indices.length;
+    }
+  }
+
+  /** Lets the waiting points join the horizon, and drops all points that it hides then. */
+  grow(): void {
+    if (this.#waitingCount > 0) {
+      this.#horizon.add(concatenated(this.#waiting.map(({ positions }) => positions)));
+    }
+    const all = [...this.#inside, ...this.#waiting].map((part) => this.#screened(part));
+    this.#inside = all.filter(({ indices }) => indices.length > 0);
+    this.#waiting = [];
+    this.#waitingCount = 0;
+    this.#count = this.#inside.reduce((sum, { indices }) => sum + indices.length, 0);
+  }
+
+  dispose(): void {
+    this.#horizon.dispose();
+  }
+
+  /** The same part without the points that the horizon hides. */
+  #screened(part: VisibleNode): VisibleNode {
+    const { key, indices, positions, colors } = part;
+    const left = this.#horizon.screen(positions);
+    if (left.length === indices.length) {
+      return part;
+    }
+    return {
+      key,
+      indices: left.map((k) => indices[k]!),
+      positions: threesAt(left, positions, new Float64Array(3 * left.length)),
+      colors: colors && threesAt(left, colors, new Uint16Array(3 * left.length)),
+    };
+  }
+}
+
+/** Copies the three numbers of some points. */
+function threesAt<T extends Float64Array | Uint16Array>(points: Uint32Array, from: T, to: T): T {
+  for (let i = 0; i < points.length; i++) {
+    const at = 3 * points[i]!;
+    to[3 * i] = from[at]!;
+    to[3 * i + 1] = from[at + 1]!;
+    to[3 * i + 2] = from[at + 2]!;
+  }
+  return to;
+}
 
 /**
  * What is known of a view so far. A later step shows points of more nodes. It never shows a point
@@ -80,7 +278,7 @@ interface Coming {
 }
 
 /** One view of an octree: reads its nodes, the best ones first, until all are read or hidden. */
-export class Look {
+export class OctreeView {
   readonly #tree: Tree;
   readonly #cache: NodeCache;
   readonly #request: ViewRequest;
