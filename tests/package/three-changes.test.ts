@@ -3,7 +3,7 @@ import { init, PointCloud } from "hidden-point-removal";
 import { HiddenPointNodesFilter } from "hidden-point-removal/nodes";
 import { HiddenPointFilter } from "hidden-point-removal/three";
 import * as THREE from "three";
-import { afterEach, beforeAll, beforeEach, describe, expect, it } from "vitest";
+import { afterEach, beforeAll, beforeEach, describe, expect, it, vi } from "vitest";
 
 import { pointsOf } from "./adapters";
 import { CountedWorker, OriginalWorker, replaceWorker, running } from "./node-workers";
@@ -359,6 +359,18 @@ describe("a filter", () => {
       filter.dispose();
       expect(points.children).toHaveLength(0);
       expect(Object.keys(child.geometry.attributes)).toEqual([]);
+    });
+
+    it("says once that it copies no hook of a material", () => {
+      const said = vi.spyOn(console, "info").mockReturnValue(undefined);
+      for (let k = 0; k < 3; k++) {
+        const { points } = sceneOf(adapter, sphere);
+        if (k > 0) points.material.onBeforeCompile = () => undefined;
+        filterFor(points, { mode: "dim", worker: false });
+        expect(said).toHaveBeenCalledTimes(Math.min(k, 1));
+      }
+      expect(said).toHaveBeenCalledWith(expect.stringContaining("give dimMaterial"));
+      said.mockRestore();
     });
 
     it("lists the hidden points of an index in its order", () => {

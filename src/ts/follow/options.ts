@@ -21,8 +21,8 @@ export interface FollowOptions {
   /**
    * Asked when the viewpoint has been at rest for 100 ms. These are the options of a view, as if no
    * others were given. `false`: nothing more is asked. Default: the view itself with `looks: 3`, in three
-   * dimensions and if none of `radius`, `exponent`, `inversion` and `looks` is given. A `thickness` then belongs
-   * to these looks.
+   * dimensions and if none of `radius`, `exponent`, `inversion` and `looks` is given. `thickness` and
+   * `surface` then belong to these looks.
    */
   settle?: VisibilityOptions | false | undefined;
   /**
@@ -80,7 +80,7 @@ function stagesOf(given: Record<string, unknown>, dimension: number): Stage<Visi
   if (settle === undefined && !isFinal) {
     const looks: VisibilityOptions = { ...view, looks: 3 };
     viewSettings({ ...looks }, dimension);
-    const plain = { ...view, thickness: undefined };
+    const plain = { ...view, thickness: undefined, surface: undefined };
     return [stageOf(plain), stageOf(looks, REST)];
   }
   viewSettings({ ...view }, dimension);

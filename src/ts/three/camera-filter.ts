@@ -189,6 +189,16 @@ export abstract class CameraFilter<Events extends FilterEvents> extends Sender<E
     this.#change("thickness", thickness);
   }
 
+  /** The option `surface` of the looks. */
+  get surface(): "auto" | "clean" | "noisy" | "layered" | undefined {
+    return (this.settings.given as { surface?: "auto" | "clean" | "noisy" | "layered" }).surface;
+  }
+
+  /** @throws HprError `option`. */
+  set surface(surface: "auto" | "clean" | "noisy" | "layered" | undefined) {
+    this.#change("surface", surface);
+  }
+
   /** The radius of the last answer, in the points' units. 0 before it, and if it has none, as with looks. */
   get radius(): number {
     return this.#answered.radius;

@@ -1,11 +1,25 @@
-import { type BufferAttribute, BufferGeometry, type Material, Points, type PointsMaterial } from "three";
+import { type BufferAttribute, BufferGeometry, Material, Points, type PointsMaterial } from "three";
 
 import { describe, HprError } from "../base/errors.js";
 import type { Order } from "./drawn-points.js";
+import { isPatched } from "./map-material.js";
 import { MappedPoints, type MapTexture } from "./mapped-points.js";
 import { DIMMED, type FilterSettings } from "./options.js";
 
 const dimmed = new WeakSet<Points>();
+let hasSaid = false;
+
+/** Says once that a copy of a material does not take its hook over. */
+function sayHook(material: Material): void {
+  // oxlint-disable-next-line typescript/unbound-method -- only compared
+  const isOwn = material.onBeforeCompile !== Material.prototype.onBeforeCompile && !isPatched(material);
+  if (isOwn && !hasSaid) {
+    hasSaid = true;
+    console.info(
+      'hidden-point-removal: mode "dim" copies the points\' material without its onBeforeCompile; give dimMaterial',
+    );
+  }
+}
 
 /** Whether this object only draws the hidden points of another one. */
 export function isDimmed(points: Points): boolean {
@@ -30,6 +44,7 @@ export class DimmedPoints {
     this.#points = points;
     this.#given = dimMaterial;
     this.#child = new Points(new BufferGeometry(), dimMaterial ?? this.#copy());
+    if (dimMaterial === undefined) sayHook(points.material as Material);
     this.#mapped = new MappedPoints(this.#child, patch!, -1);
     dimmed.add(this.#child);
     this.#child.name = "hidden points";

@@ -92,9 +92,15 @@ export abstract class MapPatch {
 /** Patches a material for one more user. */
 export type PatchMaterial = (material: Material) => MapPatch;
 
+const known = new WeakMap<Material, MapPatch>();
+
+/** Whether a filter has patched this material. */
+export function isPatched(material: Material): boolean {
+  return (known.get(material)?.users ?? 0) > 0;
+}
+
 /** Patches each material once. */
 export function patching(Patch: new (material: Material) => MapPatch): PatchMaterial {
-  const known = new WeakMap<Material, MapPatch>();
   return (material) => {
     const patch = known.get(material) ?? new Patch(material);
     known.set(material, patch);
