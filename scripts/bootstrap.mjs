@@ -1,4 +1,4 @@
-// Runs one of the project's commands: `node scripts/bootstrap.mjs NAME` runs scripts/NAME.ts.
+// Runs one of the project's commands: `node scripts/bootstrap.mjs NAME` runs NAME of scripts/commands.ts.
 //
 // The commands are written in TypeScript, which a fresh clone cannot run. This file, the only plain
 // JavaScript among the scripts, installs the npm packages when they do not match the lock file,
@@ -15,7 +15,7 @@ const compiled = join(root, "target", "scripts");
 requireNode(20);
 if (!packagesMatchLock()) installPackages();
 if (!scriptsCompiled()) compileScripts();
-await import(pathToFileURL(join(compiled, `${process.argv[2]}.js`)).href);
+await import(pathToFileURL(join(compiled, "commands.js")).href);
 
 function requireNode(major) {
   if (Number(process.versions.node.split(".")[0]) >= major) return;

@@ -2,26 +2,19 @@
 // the minutes. Prints how many cases were tried and how many were wrong. Ends with status 1 if any was wrong.
 import { availableParallelism } from "node:os";
 
-import { buildPackage } from "./build/package.js";
-import { buildWasm } from "./build/wasm.js";
-import { askedFor } from "./fuzz/arguments.js";
-import { allFuzzers } from "./fuzz/fuzzers.js";
-import { runFuzzer } from "./fuzz/run.js";
-import { inOrder } from "./lib/schedule.js";
-import { command } from "./lib/command.js";
+import { allFuzzers, askedFor, runFuzzer } from "./fuzz/fuzzers.js";
+import { buildPackage } from "./build/build.js";
 import { mustRun } from "./lib/run.js";
-import { setUpForBuild } from "./setup/setup.js";
+import { inOrder } from "./lib/schedule.js";
 
-await command(async () => {
+export async function fuzz(args: string[]): Promise<void> {
   const fuzzers = allFuzzers();
   const { minutes, seed, only } = askedFor(
-    process.argv.slice(3),
+    args,
     fuzzers.map(({ title }) => title),
   );
   const chosen = fuzzers.filter(({ title }) => only === undefined || title === only);
-  await setUpForBuild();
   if (chosen.some(({ isRust }) => !isRust)) {
-    await buildWasm();
     await buildPackage();
   }
   if (chosen.some(({ isRust }) => isRust)) {
@@ -43,4 +36,4 @@ await command(async () => {
   });
   console.log(`\n${rows.sort().join("\n")}\n\n${wrong === 0 ? "nothing was wrong" : `${wrong} wrong`} (seed ${seed})`);
   if (wrong > 0) process.exitCode = 1;
-});
+}

@@ -1,27 +1,22 @@
 // npm run test:scale [-- --points N] [--files N]: the tests of the Python package with Dask, LAZ and Parquet, and
 // then tiles against one cloud.
-import { buildPackage } from "./build/package.js";
-import { buildWasm } from "./build/wasm.js";
-import { pytest } from "./checks/python.js";
-import { command } from "./lib/command.js";
 import { Problem, mustRun } from "./lib/run.js";
+import { buildPackage } from "./build/build.js";
+import { pytest } from "./checks/languages.js";
 import { python, setUpPython } from "./setup/python.js";
-import { setUpForBuild } from "./setup/setup.js";
 
 /** The optional packages of python/pyproject.toml, and that of `SeenBy.matrix`. */
 const OPTIONAL = ["dask[distributed]>=2024.1", "laspy[lazrs]>=2.5", "pyarrow>=14", "scipy>=1.11"];
 
-await command(async () => {
+export async function scale(args: string[]): Promise<void> {
   const lacking = await setUpPython(OPTIONAL);
   if (lacking !== undefined) throw new Problem(`The tests of tiles cannot run here: ${lacking}.`);
   // The answers are compared with those of the npm package.
-  await setUpForBuild();
-  await buildWasm();
   await buildPackage();
   const { failed, left } = await pytest("python/tests");
   if (failed > 0) throw new Problem(`${failed} tests of the Python package failed.`);
   if (left > 0) throw new Problem(`${left} tests of the Python package were skipped.`);
-  const asked = process.argv.slice(3);
+  const asked = args;
   await mustRun(
     python,
     ["python/scale/suite.py", ...asked],
@@ -30,4 +25,4 @@ await command(async () => {
       show: "results",
     },
   );
-});
+}

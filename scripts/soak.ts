@@ -4,11 +4,9 @@
 import { parseArgs } from "node:util";
 
 import { build } from "./build/build.js";
-import { command } from "./lib/command.js";
-import { load } from "./lib/load.js";
 import { run } from "./lib/run.js";
-import { setUpBrowser } from "./setup/browser.js";
-import { setUpForBuild } from "./setup/setup.js";
+import { load } from "./lib/load.js";
+import { setUpBrowser } from "./setup/system.js";
 
 interface Soak {
   views: (count: number) => Promise<boolean>;
@@ -16,10 +14,9 @@ interface Soak {
   large: (points: number) => Promise<boolean>;
 }
 
-await command(async () => {
+export async function soak(args: string[]): Promise<void> {
   const text = { type: "string" } as const;
-  const { values } = parseArgs({ args: process.argv.slice(3), options: { views: text, points: text } });
-  await setUpForBuild();
+  const { values } = parseArgs({ args: args, options: { views: text, points: text } });
   await build();
   const env = { HPR_CHROMIUM: await setUpBrowser(), HPR_SOAK: "1" };
   const page = await run("vitest", ["run", "tests/browser/soak.test.ts", "tests/browser/orbit.test.ts"], {
@@ -35,4 +32,4 @@ await command(async () => {
   ];
   // Open workers must not keep the process alive.
   process.exit(right.every(Boolean) ? 0 : 1);
-});
+}

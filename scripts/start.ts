@@ -2,17 +2,11 @@
 // Changes to the page show at once. Changes to the package show after a restart.
 import { createServer } from "vite";
 
-import { buildPackage } from "./build/package.js";
-import { buildWasm } from "./build/wasm.js";
-import { command } from "./lib/command.js";
-import { inRoot } from "./lib/paths.js";
-import { Problem } from "./lib/run.js";
-import { setUpForBuild } from "./setup/setup.js";
+import { Problem, inRoot } from "./lib/run.js";
+import { buildPackage } from "./build/build.js";
 
-await command(async () => {
+export async function start(): Promise<void> {
   const { port, asked } = chosenPort();
-  await setUpForBuild();
-  await buildWasm();
   await buildPackage();
   // A port from PORT is used or refused. The usual port may give way to the next one.
   // The host is a number, because with `localhost` some systems would listen on IPv6 only.
@@ -26,7 +20,7 @@ await command(async () => {
   }
   stopWithNpm();
   console.log(`\nThe demo page: http://localhost:${server.config.server.port}/ (Ctrl+C stops it)`);
-});
+}
 
 /** Ending npm ends the shell that runs its scripts, but not the programs in that shell. */
 function stopWithNpm(): void {

@@ -1,14 +1,10 @@
 // npm test [-- part …]: sets up missing tools, then runs every check, or the checks of the given
 // parts. If a check fails, the others still run. The last lines name the failures and add up all
 // counts.
+import { FAIL, chosenParts, sum, type Check, type Outcome } from "./checks/check.js";
+import { Problem, collected, print } from "./lib/run.js";
 import { checks } from "./checks/all.js";
-import type { Check, Outcome } from "./checks/check.js";
-import { FAIL, sum } from "./checks/check.js";
-import { chosenParts } from "./checks/parts.js";
 import { inOrder, withNeeds } from "./lib/schedule.js";
-import { command } from "./lib/command.js";
-import { collected, print } from "./lib/output.js";
-import { Problem } from "./lib/run.js";
 
 /** Two cores are busy with three checks: those with a browser wait half of the time, others use one core for long. */
 const AT_ONCE = 3;
@@ -16,9 +12,9 @@ const AT_ONCE = 3;
 const rows: string[] = [];
 const outcomes = new Map<string, Outcome>();
 
-await command(async () => {
+export async function test(args: string[]): Promise<void> {
   const started = Date.now();
-  const parts = chosenParts(process.argv.slice(3));
+  const parts = chosenParts(args);
   const chosen = withNeeds(checks, ({ part }) => part !== undefined && parts.has(part));
   await inOrder(chosen, AT_ONCE, shown);
 
@@ -28,7 +24,7 @@ await command(async () => {
   for (const failure of total.failures) print(`failed: ${failure}\n`);
   print(`${words(total)}\n`);
   if (total.failed > 0) process.exitCode = 1;
-});
+}
 
 /** Shows the output of a check after it has ended, so that no other output comes in between. */
 async function shown(check: Check): Promise<void> {

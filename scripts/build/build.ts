@@ -1,10 +1,122 @@
-import { buildDemo } from "./demo.js";
-import { buildPackage } from "./package.js";
-import { buildWasm } from "./wasm.js";
+import { copyFileSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { dirname } from "node:path";
+import { gzipSync } from "node:zlib";
 
-/** Builds the package and the demo page. Steps whose inputs did not change are skipped. */
-export async function build(): Promise<void> {
+import { type BuildOptions, build as bundleWith } from "esbuild";
+
+import { TSC, inRoot, mustRun, say } from "../lib/run.js";
+import { WASM_FILES, buildWasm } from "./wasm.js";
+import { unlessUnchanged } from "../lib/stamp.js";
+import { setUpForBuild } from "../setup/rust.js";
+
+/** Modules that hold the wasm and the worker's script as text, for the entry `inline`. */
+const EMBEDDED = ["embedded.js", "embedded.d.ts", "embedded-worker.js", "embedded-worker.d.ts"];
+
+/** Writes these files beside the wasm. */
+function embedWasm(): void {
+  const gzipped = gzipSync(readFileSync(inRoot("src/ts/wasm/hpr_bg.wasm")), { level: 9 });
+  write(EMBEDDED.slice(0, 2), [
+    `export const gzippedWasm =\n  "${gzipped.toString("base64")}";\n`,
+    "/** hpr_bg.wasm, gzipped, in base64. */\nexport const gzippedWasm: string;\n",
+  ]);
+}
+
+/** Bundles the worker's script, and writes the modules of `inline` that hold it. Returns the script. */
+async function embedWorker(): Promise<Uint8Array> {
+  // One script is a module, a classic script, and text that Node runs.
+  const script = await bundle("worker/worker-thread.ts");
+  write(EMBEDDED.slice(2), [
+    `export const workerText =\n  ${JSON.stringify(Buffer.from(script).toString())};\n`,
+    "/** worker-thread.js in one file. */\nexport const workerText: string;\n",
+  ]);
+  return script;
+}
+
+/** The script for pages without a bundler: the wasm and the worker's script are in it, and nothing is fetched. */
+function bundleGlobal(): Promise<Uint8Array> {
+  return bundle("global.ts", {
+    globalName: "HiddenPointRemoval",
+    // The addresses of files beside the modules, which it does not use.
+    define: { "import.meta.url": "document.baseURI" },
+  });
+}
+
+/** A file of src/ts and all that it imports, as one script that works at any address. */
+async function bundle(entry: string, options: BuildOptions = {}): Promise<Uint8Array> {
+  const entryPoints = [inRoot("src/ts", entry)];
+  const usual = { bundle: true, minify: true, format: "iife", target: "es2022" } as const;
+  const { outputFiles } = await bundleWith({ entryPoints, ...usual, ...options, write: false });
+  return outputFiles[0]!.contents;
+}
+
+function write(names: string[], texts: string[]): void {
+  names.forEach((name, i) => {
+    writeFileSync(inRoot("src/ts/wasm", name), texts[i]!);
+  });
+}
+
+const GENERATED = [...WASM_FILES, ...EMBEDDED.map((file) => `wasm/${file}`)];
+
+/** The script for pages without a bundler. */
+const GLOBAL = "dist/hidden-point-removal.global.js";
+
+/** Installs what is missing and builds the npm package: the wasm, the modules and their types, in dist. */
+export async function buildPackage(): Promise<void> {
+  await setUpForBuild();
   await buildWasm();
+  const work = {
+    name: "package",
+    inputs: ["src/ts", "tsconfig.base.json", "tsconfig.build.json", "package-lock.json", "scripts/build/build.ts"],
+    ignore: EMBEDDED.map((file) => `src/ts/wasm/${file}`),
+    outputs: ["dist/index.js", "dist/worker-thread.js", GLOBAL, ...GENERATED.map((file) => `dist/${file}`)],
+  };
+  const result = await unlessUnchanged(work, async () => {
+    say("Compiling the npm package…");
+    // The folder is emptied first: a module whose source is gone must not stay.
+    rmSync(inRoot("dist"), { recursive: true, force: true });
+    embedWasm();
+    const worker = await embedWorker();
+    await mustRun(process.execPath, [TSC, "-p", "tsconfig.build.json"], "The npm package does not compile");
+    for (const file of GENERATED) {
+      mkdirSync(inRoot("dist", dirname(file)), { recursive: true });
+      copyFileSync(inRoot("src/ts", file), inRoot("dist", file));
+    }
+    writeFileSync(inRoot("dist/worker-thread.js"), worker);
+    writeFileSync(inRoot(GLOBAL), await bundleGlobal());
+    // Only the script has it.
+    for (const file of ["global.js", "global.d.ts"]) rmSync(inRoot("dist", file));
+  });
+  say(`npm package: ${result}`);
+}
+
+/** Builds the demo page, and the element for other pages. Both lie in www/dist and can be hosted under any path. */
+async function buildDemo(): Promise<void> {
+  const work = {
+    name: "demo",
+    inputs: ["www", "dist", "package.json", "package-lock.json", "THIRD_PARTY.md", "docs/page.webp"],
+    ignore: ["www/dist", "www/public/samples"],
+    outputs: ["www/dist/index.html", "www/dist/hidden-point-cloud.js", "www/dist/hidden-point-cloud.d.ts"],
+  };
+  const result = await unlessUnchanged(work, async () => {
+    // The page is built first, because its build empties the folder.
+    for (const [what, config] of [
+      ["demo page", "www/vite.config.ts"],
+      ["element", "www/element/vite.config.ts"],
+    ] as const) {
+      say(`Building the ${what}…`);
+      const options = ["--config", config, "--configLoader", "runner", "--logLevel", "warn"];
+      await mustRun("vite", ["build", "www", ...options], `The ${what} could not be built`);
+    }
+    // The licenses of the bundled code require it.
+    copyFileSync(inRoot("THIRD_PARTY.md"), inRoot("www/dist/THIRD_PARTY.md"));
+    // The picture that other sites show beside a link to the page.
+    copyFileSync(inRoot("docs/page.webp"), inRoot("www/dist/preview.webp"));
+  });
+  say(`Demo page and element: ${result}`);
+}
+
+/** Builds the npm package and the demo page. Steps whose inputs did not change are skipped. */
+export async function build(): Promise<void> {
   await buildPackage();
   await buildDemo();
 }

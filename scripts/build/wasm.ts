@@ -2,10 +2,9 @@ import { copyFileSync, mkdirSync } from "node:fs";
 import { homedir } from "node:os";
 import { join } from "node:path";
 
-import { inRoot } from "../lib/paths.js";
-import { mustRun, say } from "../lib/run.js";
+import { inRoot, mustRun, say } from "../lib/run.js";
+import { setUpWasmPack } from "../setup/rust.js";
 import { unlessUnchanged } from "../lib/stamp.js";
-import { setUpWasmPack } from "../setup/wasm-pack.js";
 
 interface Module {
   /** The folder of the crate. */

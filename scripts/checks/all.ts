@@ -1,10 +1,6 @@
-import { groundwork } from "./build.js";
-import type { Check } from "./check.js";
-import { packagingChecks } from "./packaging.js";
-import { pythonCheck } from "./python.js";
-import { rustChecks } from "./rust.js";
-import { supplyChecks } from "./supply.js";
-import { packageCheck, pageCheck, typescriptChecks } from "./typescript.js";
+import { groundwork, type Check } from "./check.js";
+import { packageCheck, pageCheck, pythonCheck, rustChecks, typescriptChecks } from "./languages.js";
+import { packagingChecks, supplyChecks } from "./packaging.js";
 
 /** Every check of `npm test`. They start in this order, and a check comes after the checks that it needs. */
 export const checks: Check[] = [

@@ -1,13 +1,9 @@
-import { readFileSync } from "node:fs";
+import { existsSync, readFileSync } from "node:fs";
 
-import { print } from "../lib/output.js";
-import { inRoot } from "../lib/paths.js";
-import { run } from "../lib/run.js";
-import { setUpBrowser } from "../setup/browser.js";
-import { BUILD } from "./build.js";
-import type { Check, Outcome } from "./check.js";
-import { FAIL, PASS, checkCommand, sum } from "./check.js";
-import { vitest } from "./vitest.js";
+import { BUILD, FAIL, PASS, SETUP, checkCommand, sum, vitest, type Check, type Outcome } from "./check.js";
+import { THIRD_PARTY, notAllowed, notLocked, shipped, thirdPartyText } from "../supply/third-party.js";
+import { findOnPath, inRoot, print, run } from "../lib/run.js";
+import { setUpBrowser } from "../setup/system.js";
 
 /** All files that a user of the npm package gets. */
 const WANTED =
@@ -89,4 +85,38 @@ function filesIn(output: string): string[] {
   const json = output.slice(output.indexOf("["), output.lastIndexOf("]") + 1);
   const [pack] = JSON.parse(json) as { files: { path: string }[] }[];
   return pack?.files.map((file) => file.path) ?? [];
+}
+
+export const supplyChecks: Check[] = [
+  {
+    title: "Supply: licenses of what ships, locked versions",
+    part: "supply",
+    needs: [SETUP],
+    run: async () => {
+      const components = await shipped();
+      const all = [...components.crates, ...components.modules];
+      const current = existsSync(THIRD_PARTY) && readFileSync(THIRD_PARTY, "utf8") === thirdPartyText(components);
+      return sum([
+        none("License not in the list of deny.toml", notAllowed(all)),
+        none("Not locked to a registry by a checksum", notLocked()),
+        none("Out of date", current ? [] : ["THIRD_PARTY.md: run `npm run licenses`"]),
+      ]);
+    },
+  },
+  {
+    title: "Supply: cargo-deny, every crate of the lock file",
+    part: "supply",
+    needs: [SETUP],
+    // Building it takes two minutes. That is too long for a machine that runs the tests once.
+    run: async () =>
+      findOnPath("cargo-deny") !== undefined
+        ? checkCommand("cargo-deny", ["--offline", "check", "licenses", "bans", "sources"])
+        : { passed: 0, failed: 0, skipped: "cargo-deny is not installed: `cargo install --locked cargo-deny`" },
+  },
+];
+
+function none(what: string, found: string[]): Outcome {
+  if (found.length === 0) return PASS;
+  print(`${what}:\n${found.map((one) => `  ${one}\n`).join("")}`);
+  return { ...FAIL, failures: [`${what}: ${found[0]!}`] };
 }

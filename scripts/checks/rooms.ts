@@ -3,10 +3,8 @@
 import { readFileSync, readdirSync } from "node:fs";
 import { relative } from "node:path";
 
-import { print } from "../lib/output.js";
-import { inRoot } from "../lib/paths.js";
-import type { Check } from "./check.js";
-import { FAIL, PASS } from "./check.js";
+import { FAIL, PASS, type Check } from "./check.js";
+import { inRoot, print } from "../lib/run.js";
 
 /** The rooms from upstream to downstream. `lib` lists the public names; `wasm` uses only them and its own names. */
 const ROOMS = ["base", "cloud", "flip", "hull", "view", "answers", "dimensions", "lib", "wasm"];

@@ -2,8 +2,8 @@
 // prints its count like the other fuzzers.
 import { parseArgs } from "node:util";
 
+import type { Tally } from "./fuzzers.js";
 import { load } from "../lib/load.js";
-import type { Tally } from "./run.js";
 
 const text = { type: "string" } as const;
 const { positionals, values } = parseArgs({ options: { minutes: text, seed: text }, allowPositionals: true });

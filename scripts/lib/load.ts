@@ -1,6 +1,6 @@
 import { createServer, createServerModuleRunner } from "vite";
 
-import { inRoot, root } from "./paths.js";
+import { inRoot, root } from "./run.js";
 
 /**
  * Loads a TypeScript file of the repository that is not compiled with the scripts. Vite compiles it, because the page's

@@ -1,10 +1,56 @@
-import { spawn } from "node:child_process";
-import type { SpawnOptions } from "node:child_process";
+import { AsyncLocalStorage } from "node:async_hooks";
+import { spawn, type SpawnOptions } from "node:child_process";
+import { existsSync } from "node:fs";
+import { homedir } from "node:os";
+import { delimiter, join } from "node:path";
 
-import { print } from "./output.js";
-import { environment, root } from "./paths.js";
+/** The root of the repository. This file runs as target/scripts/lib/run.js. */
+export const root = join(import.meta.dirname, "..", "..", "..");
 
-export interface RunResult {
+/** A path inside the repository. */
+export function inRoot(...parts: string[]): string {
+  return join(root, ...parts);
+}
+
+/** TypeScript's native compiler. Only typedoc needs the other one, for its interface. */
+export const TSC = inRoot("node_modules/typescript-native/bin/tsc");
+
+/**
+ * The environment of every command. On the PATH, the tools of this project come first. rustup's directory comes last,
+ * for shells that were opened before rustup was installed.
+ */
+export function environment(extra: Record<string, string> = {}): NodeJS.ProcessEnv {
+  const cargoBin = join(process.env["CARGO_HOME"] ?? join(homedir(), ".cargo"), "bin");
+  const path = [inRoot("target/tools/bin"), inRoot("node_modules/.bin"), process.env["PATH"] ?? "", cargoBin];
+  return { ...process.env, ...extra, PATH: path.join(delimiter) };
+}
+
+/** The full path of a command, or undefined if it is not on the PATH. */
+export function findOnPath(command: string): string | undefined {
+  const suffixes = process.platform === "win32" ? [".exe", ".cmd"] : [""];
+  return (environment()["PATH"] ?? "")
+    .split(delimiter)
+    .flatMap((directory) => suffixes.map((suffix) => join(directory, command + suffix)))
+    .find((file) => existsSync(file));
+}
+
+const collector = new AsyncLocalStorage<string[]>();
+
+/** Shows text. Inside `collected`, keeps it instead. */
+export function print(text: string | Buffer, stream: "stdout" | "stderr" = "stdout"): void {
+  const parts = collector.getStore();
+  if (parts === undefined) process[stream].write(text);
+  else parts.push(text.toString());
+}
+
+/** Runs an action and collects its output in one piece, because other actions print at the same time. */
+export async function collected<T>(action: () => Promise<T>): Promise<{ value: T; output: string }> {
+  const parts: string[] = [];
+  const value = await collector.run(parts, action);
+  return { value, output: parts.join("") };
+}
+
+interface RunResult {
   ok: boolean;
   /** Standard output and standard error together, in the order in which they came. */
   output: string;

@@ -2,7 +2,7 @@ import { createHash } from "node:crypto";
 import { existsSync, mkdirSync, readFileSync, readdirSync, rmSync, statSync, writeFileSync } from "node:fs";
 import { join, relative } from "node:path";
 
-import { inRoot, root } from "./paths.js";
+import { inRoot, root } from "./run.js";
 
 interface Work {
   /** The name of the stamp. */

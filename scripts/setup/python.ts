@@ -1,7 +1,6 @@
 import { existsSync, readdirSync, rmSync } from "node:fs";
 
-import { inRoot } from "../lib/paths.js";
-import { mustRun, say, succeeds } from "../lib/run.js";
+import { inRoot, mustRun, say, succeeds } from "../lib/run.js";
 import { unlessUnchanged } from "../lib/stamp.js";
 
 const FOLDER = "target/python";

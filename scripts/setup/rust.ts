@@ -1,7 +1,7 @@
-import { existsSync } from "node:fs";
+import { existsSync, readFileSync } from "node:fs";
 
-import { findOnPath } from "../lib/paths.js";
-import { Problem, mustRun, run, say, succeeds } from "../lib/run.js";
+import { Problem, findOnPath, inRoot, mustRun, run, say, succeeds } from "../lib/run.js";
+import { setUpLinker } from "./system.js";
 
 /** The oldest rustc whose LLVM knows all options of scripts/build/wasm.ts. */
 const OLDEST = { major: 1, minor: 95 };
@@ -24,7 +24,7 @@ export async function setUpRust(): Promise<void> {
 }
 
 /** Installs the standard library of a target that rustc lacks. */
-export async function setUpTarget(target: string): Promise<void> {
+async function setUpTarget(target: string): Promise<void> {
   const { output } = await run("rustc", ["--print", "target-libdir", "--target", target], { show: "nothing" });
   if (existsSync(output.trim())) return;
   needRustup(`the Rust target ${target}`);
@@ -33,7 +33,7 @@ export async function setUpTarget(target: string): Promise<void> {
 }
 
 /** Installs rustfmt and clippy if they are missing. */
-export async function setUpComponents(): Promise<void> {
+async function setUpComponents(): Promise<void> {
   for (const component of ["rustfmt", "clippy"]) {
     if (await succeeds(component === "rustfmt" ? "rustfmt" : "clippy-driver", "--version")) continue;
     needRustup(component);
@@ -53,4 +53,39 @@ async function checkVersion(rustup: boolean): Promise<void> {
 function needRustup(what: string): void {
   if (findOnPath("rustup") !== undefined) return;
   throw new Problem(`${what} is missing, and there is no rustup to install it with: see https://rustup.rs`);
+}
+
+const WASM_PACK = "0.15.1";
+
+/**
+ * Installs wasm-pack, and the commands of wasm-bindgen of the version in Cargo.lock, into target/tools. They run for
+ * seconds, but to optimize them would take minutes.
+ */
+export async function setUpWasmPack(): Promise<void> {
+  await install("wasm-pack", WASM_PACK, "--locked");
+  // Its own lock file names versions that a mirror of crates.io may lack. Without features it needs no TLS.
+  const [, locked] = /name = "wasm-bindgen"\nversion = "(.+)"/.exec(readFileSync(inRoot("Cargo.lock"), "utf8"))!;
+  await install("wasm-bindgen-cli", locked!, "--no-default-features");
+}
+
+async function install(crate: string, version: string, ...options: string[]): Promise<void> {
+  const folder = inRoot("target/tools");
+  say(`Installing ${crate} ${version}, unless target/tools has it (about a minute)…`);
+  const args = ["install", crate, "--version", version, ...options, "--debug", "--root", folder];
+  const env = { CARGO_TARGET_DIR: `${folder}/build`, CARGO_PROFILE_DEV_DEBUG: "0" };
+  await mustRun("cargo", ["--quiet", ...args], `${crate} could not be installed`, { env });
+}
+
+/** Installs everything that a build needs and that is missing. */
+export async function setUpForBuild(): Promise<void> {
+  await setUpRust();
+  await setUpLinker();
+  await setUpTarget(WASM_TARGET);
+}
+
+/** Installs what the Rust checks need besides that. (The page's tests set up the browser.) */
+export async function setUpForChecks(): Promise<void> {
+  await setUpForBuild();
+  await setUpTarget(BARE_TARGET);
+  await setUpComponents();
 }

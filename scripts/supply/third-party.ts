@@ -1,9 +1,54 @@
 import { createHash } from "node:crypto";
+import { createRequire } from "node:module";
+import { readFileSync } from "node:fs";
 
-import { inRoot } from "../lib/paths.js";
-import type { Component } from "./component.js";
-import { cratesOfWasm } from "./crates.js";
-import { modulesOfPage } from "./modules.js";
+import { cratesOfWasm, modulesOfPage, type Component } from "./components.js";
+import { inRoot } from "../lib/run.js";
+
+/** Whether an SPDX expression can be met with the allowed licenses. It throws if the text is no such expression. */
+const satisfies = createRequire(import.meta.url)("spdx-satisfies") as (license: string, allowed: string[]) => boolean;
+
+/** The components whose license is not allowed by the list in deny.toml. */
+export function notAllowed(components: Component[]): string[] {
+  const [, list = ""] = /^allow = \[([^\]]*)\]/m.exec(readFileSync(inRoot("deny.toml"), "utf8")) ?? [];
+  const allowed = [...list.matchAll(/"([^"]+)"/g)].map(([, name]) => name!);
+  return components
+    .filter(({ license }) => license === undefined || !satisfies(license, allowed))
+    .map(({ name, version, license = "no license" }) => `${name} ${version}: ${license}`);
+}
+
+const CRATES_IO = "registry+https://github.com/rust-lang/crates.io-index";
+const OWN = new Set(["hidden-point-removal", "hpr", "hpr-files", "hpr-tests", "dependent"]);
+const NPM = "https://registry.npmjs.org/";
+
+/** The entries of the lock files that have no checksum or do not come from the two registries. */
+export function notLocked(): string[] {
+  return [...crates("Cargo.lock"), ...packages()];
+}
+
+function crates(file: string): string[] {
+  const [, ...entries] = readFileSync(inRoot(file), "utf8").split("[[package]]\n");
+  const field = (entry: string, name: string) => new RegExp(`^${name} = "([^"]*)"`, "m").exec(entry)?.[1];
+  return (
+    entries
+      .map((entry) => ({ name: field(entry, "name")!, source: field(entry, "source"), sum: field(entry, "checksum") }))
+      // The project's own crates have no source.
+      .filter(({ name, source, sum }) => !OWN.has(name) && !(source === CRATES_IO && sum))
+      .map(({ name, source = "no source" }) => `${file}: ${name} (${source})`)
+  );
+}
+
+function packages(): string[] {
+  const lock = JSON.parse(readFileSync(inRoot("package-lock.json"), "utf8")) as {
+    packages: Record<string, { resolved?: string; integrity?: string; link?: boolean; inBundle?: boolean }>;
+  };
+  return Object.entries(lock.packages)
+    .filter(([path, { resolved = NPM, integrity, inBundle }]) => {
+      // A package inside the archive of another package shares its checksum.
+      return path !== "" && inBundle !== true && !(resolved.startsWith(NPM) && integrity !== undefined);
+    })
+    .map(([path, { resolved = "no checksum" }]) => `package-lock.json: ${path} (${resolved})`);
+}
 
 /** The file that lists all shipped works of others, with the license texts that must come with them. */
 export const THIRD_PARTY = inRoot("THIRD_PARTY.md");

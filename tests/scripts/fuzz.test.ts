@@ -1,8 +1,8 @@
 // How `npm run fuzz` reads its arguments and the output of its fuzzers.
 import { expect, it } from "vitest";
 
-import { askedFor } from "../../scripts/fuzz/arguments.js";
-import { runFuzzer, tallyIn } from "../../scripts/fuzz/run.js";
+import { askedFor } from "../../scripts/fuzz/fuzzers.js";
+import { runFuzzer, tallyIn } from "../../scripts/fuzz/fuzzers.js";
 
 it("takes minutes, a seed and one fuzzer", () => {
   const args = ["--minutes", "0.5", "--seed", "7", "--only", "drafts"];

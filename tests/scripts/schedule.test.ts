@@ -1,7 +1,7 @@
 // The order in which the checks of `npm test` run.
 import { expect, it } from "vitest";
 
-import { chosenParts } from "../../scripts/checks/parts.js";
+import { chosenParts } from "../../scripts/checks/check.js";
 import { type Job, inOrder, withNeeds } from "../../scripts/lib/schedule.js";
 
 const JOBS: Job[] = [

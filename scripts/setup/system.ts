@@ -1,10 +1,42 @@
-import { existsSync } from "node:fs";
+import { existsSync, readFileSync } from "node:fs";
 
 import { chromium } from "playwright-core";
 
-import { findOnPath } from "../lib/paths.js";
-import { Problem, run, say } from "../lib/run.js";
-import { aptInstall, canInstallOnDebian } from "./debian.js";
+import { Problem, findOnPath, run, say } from "../lib/run.js";
+
+/** True on Debian itself (not on its relatives), if this user may install packages. */
+function canInstallOnDebian(): boolean {
+  return process.getuid?.() === 0 && findOnPath("apt-get") !== undefined && distribution() === "debian";
+}
+
+/** Installs a Debian package. True if that succeeded. */
+async function aptInstall(name: string): Promise<boolean> {
+  const env = { DEBIAN_FRONTEND: "noninteractive" };
+  await run("apt-get", ["update", "-qq"], { env });
+  return (await run("apt-get", ["install", "-y", "-qq", "--no-install-recommends", name], { env })).ok;
+}
+
+function distribution(): string | undefined {
+  try {
+    return /^ID="?(\w+)/m.exec(readFileSync("/etc/os-release", "utf8"))?.[1];
+  } catch {
+    return undefined;
+  }
+}
+
+/** rustc links programs for this machine through the system's C compiler. */
+export async function setUpLinker(): Promise<void> {
+  if (process.platform === "win32" || findOnPath("cc") !== undefined) return;
+  if (canInstallOnDebian()) {
+    say("Installing a C compiler (build-essential), which Rust links with…");
+    if (await aptInstall("build-essential")) return;
+  }
+  const wayOut =
+    process.platform === "darwin"
+      ? "run `xcode-select --install`"
+      : "install your system's C compiler (on Debian and Ubuntu: sudo apt-get install build-essential)";
+  throw new Problem(`Rust links with the C compiler \`cc\`, which is missing: ${wayOut}.`);
+}
 
 /** Chromium without its desktop part. Pages open in half the time, and the tests take a third less. */
 const SHELL = "chromium-headless-shell";
@@ -41,7 +73,7 @@ async function findOrInstall(): Promise<string> {
 }
 
 /** The Chromium that HPR_CHROMIUM names or that is installed, if any. */
-export function findBrowser(): string | undefined {
+function findBrowser(): string | undefined {
   const named = process.env["HPR_CHROMIUM"];
   if (named !== undefined) {
     if (existsSync(named)) return named;
