@@ -22,7 +22,7 @@ test("the first screen has a file, samples, hidden points and freeze; all other 
         ),
     );
   expect(new Set(seen)).toEqual(
-    new Set(["Hidden points", "Viewpoint", "Points", "Cloud", "Method", "Information", "Look", "Advanced"]),
+    new Set(["Hidden points", "Viewpoint", "Cloud", "Method", "Information", "Look", "Advanced"]),
   );
 });
 

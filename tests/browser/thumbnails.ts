@@ -23,7 +23,7 @@ const browser = await launchBrowser();
 for (const sample of SAMPLES) {
   const page = await browser.newPage({ viewport: { width: SCALE * WIDTH, height: SCALE * HEIGHT } });
   await hideControls(page);
-  await page.goto(`${site.address}?sample=${sample}&theme=dark&compare=0`);
+  await page.goto(`${site.address}?sample=${sample}&theme=dark&compare=0.5`);
   await page.locator('#status[data-state="ready"][data-busy="0"]').waitFor({ state: "attached", timeout: 120_000 });
   await page.waitForTimeout(1000);
   const picture = sharp(await page.locator("#view").screenshot()).resize(WIDTH, HEIGHT);
