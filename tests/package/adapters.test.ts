@@ -279,8 +279,8 @@ describe.each(ADAPTERS.map((adapter) => [adapter.name, adapter] as const))("%s",
 
 describe("several cameras of one filter", () => {
   it.each(["HiddenPointFilter", "HiddenPointNodesFilter of one node"])("each have their answers: %s", async (name) => {
-    const { make } = ADAPTERS.find((adapter) => adapter.name === name)!;
-    const one = await make(bumpySphere(1, COUNT), { settle: { looks: 3 } });
+    const adapter = ADAPTERS.find((one) => one.name === name)!;
+    const one = await adapter.make(bumpySphere(1, COUNT), { settle: { looks: 3 } });
     const filter = one.filter as HiddenPointFilter;
     const cloud = new PointCloud(bumpySphere(1, COUNT));
     const cameras = [cameraAt(0, 0, 5), cameraAt(0, 5, 0), cameraAt(5, 0, 0)];

@@ -160,9 +160,9 @@ const ofReact: Adapter["make"] = async (positions, options) => {
   const methods = { render: nothing, setPixelRatio: nothing, setSize: nothing, getPixelRatio: () => 1 };
   const gl = { ...methods, domElement: canvas, shadowMap: {}, xr: canvas };
   const root = createRoot(canvas as never);
-  await root.configure({ gl: () => gl as never, frameloop: "never", size: { width: 9, height: 9, top: 0, left: 0 } });
+  await root.configure({ gl: () => gl, frameloop: "never", size: { width: 9, height: 9, top: 0, left: 0 } });
   const told = { changes: [] as Change[], errors: [] as Error[] };
-  let filter: HiddenPointFilter | null = null;
+  const made = { filter: null as HiddenPointFilter | null };
   let own: UseHiddenPointFilterOptions = {
     ...options,
     onChange: (change) => told.changes.push(change),
@@ -170,20 +170,20 @@ const ofReact: Adapter["make"] = async (positions, options) => {
   };
   const Scan = (props: { own: UseHiddenPointFilterOptions }) => {
     const points = useRef<THREE.Points>(null);
-    filter = useHiddenPointFilter(points, props.own);
+    made.filter = useHiddenPointFilter(points, props.own);
     return createElement("points", { ref: points, geometry });
   };
   const render = () => root.render(createElement(Scan, { own })).getState();
   const { camera } = render();
   let time = 0;
-  while (filter === null) {
+  while (made.filter === null) {
     await new Promise((next) => setTimeout(next, 1));
     advance(++time);
   }
   return {
     ...told,
     get filter() {
-      return filter!;
+      return made.filter!;
     },
     look: (place) => {
       camera.position.set(...place);
@@ -191,15 +191,15 @@ const ofReact: Adapter["make"] = async (positions, options) => {
     },
     drawn: () => drawn(geometry),
     get settled() {
-      return filter?.settled ?? true;
+      return made.filter?.settled ?? true;
     },
     get answer() {
-      return filter?.answer ?? null;
+      return made.filter?.answer ?? null;
     },
     set: async (flags) => {
       own = { ...own, ...flags };
       render();
-      const isSet = () => Object.entries(flags).every(([name, value]) => Reflect.get(filter!, name) === value);
+      const isSet = () => Object.entries(flags).every(([name, value]) => Reflect.get(made.filter!, name) === value);
       while (!isSet()) await new Promise((next) => setTimeout(next, 1));
     },
     isAsBefore: () => geometry.index === null && geometry.drawRange.count === Infinity,

@@ -4,7 +4,8 @@ import { Follower, type RecoveryTimes, type Round } from "../follow/follower.js"
 import { type AnswerKind, type FollowSettings, stagesFor } from "../follow/options.js";
 import { FollowedView, type Seen } from "../follow/view.js";
 import type { Place } from "../query/place.js";
-import { type Cloud, prepareCloud, see } from "../worker/followed-cloud.js";
+import { WorkerPointCloud } from "../worker/client.js";
+import { see } from "../worker/followed-cloud.js";
 
 interface Listener {
   answer: (answer: Visibility, kind: AnswerKind, milliseconds: number) => void;
@@ -24,7 +25,7 @@ export class LayerCloud {
   #settings: FollowSettings | undefined;
   #drawsMaps = false;
   #follower: Follower | undefined;
-  #cloud: Cloud | undefined;
+  #cloud: WorkerPointCloud | undefined;
   /** Reads the positions. Undefined after it was called. */
   #unread: ReadPositions | undefined;
 
@@ -102,11 +103,12 @@ export class LayerCloud {
     return cloud !== undefined && isDue ? this.#viewing(cloud) : undefined;
   }
 
-  #preparing(read: ReadPositions): Round<Cloud> {
+  #preparing(read: ReadPositions): Round<WorkerPointCloud> {
     return {
       ask: () => {
         this.#unread = undefined;
-        return prepareCloud(read(), false, { inWorker: true, nonFinite: "error" });
+        // If the worker is lost, the positions are read again.
+        return WorkerPointCloud.create(read().slice(), { shared: true, transfer: true });
       },
       use: (cloud) => {
         this.#cloud = cloud;
@@ -117,7 +119,7 @@ export class LayerCloud {
     };
   }
 
-  #viewing(cloud: Cloud): Round<Seen> {
+  #viewing(cloud: WorkerPointCloud): Round<Seen> {
     return this.#view.see(
       this.#settings!.stale,
       (place, stage) => see(cloud, place, stage),

@@ -7,7 +7,8 @@ import type { Round } from "../follow/follower.js";
 import { CameraFilter, type Drawing, type FilterChange } from "../three/camera-filter.js";
 import type { FollowedCamera, Space } from "../three/cameras.js";
 import type { FilterSettings } from "../three/options.js";
-import { type Cloud, prepareCloud } from "../worker/followed-cloud.js";
+import type { Cloud } from "../worker/followed-cloud.js";
+import { prepareCloud } from "../three/cloud.js";
 
 /** One part of the cloud, as the viewer has it. */
 export interface GatheredNode {

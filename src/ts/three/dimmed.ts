@@ -11,7 +11,6 @@ let hasSaid = false;
 
 /** Says once that a copy of a material does not take its hook over. */
 function sayHook(material: Material): void {
-  // oxlint-disable-next-line typescript/unbound-method -- only compared
   const isOwn = material.onBeforeCompile !== Material.prototype.onBeforeCompile && !isPatched(material);
   if (isOwn && !hasSaid) {
     hasSaid = true;

@@ -2,9 +2,10 @@ import type { Points } from "three";
 
 import { HprError } from "../base/errors.js";
 import type { Round } from "../follow/follower.js";
-import { type Cloud, prepareCloud } from "../worker/followed-cloud.js";
+import type { Cloud } from "../worker/followed-cloud.js";
 import { CameraFilter, type FilterChange } from "./camera-filter.js";
 import { requireUniformScale } from "./cameras.js";
+import { prepareCloud } from "./cloud.js";
 import { Display } from "./display.js";
 import { requireUnfiltered } from "./drawn-points.js";
 import { patchMaterial, type PatchMaterial } from "./map-material.js";
