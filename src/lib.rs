@@ -49,36 +49,36 @@ pub use answers::calibration::{Calibration, Station};
 pub use answers::camera::CameraView;
 pub use answers::horizon::Horizon;
 pub use answers::illumination::Lighting;
+pub use answers::memory::Observer;
 pub use answers::merge::{merge_visible, merge_visible_u64};
-pub use answers::observer::Observer;
 pub use answers::panorama::{Panorama, PanoramaOptions};
 pub use answers::placement::{Choice, Placement, Placing};
 pub use answers::reconstruct::Reconstruction;
+pub use answers::several::ring_of_viewpoints;
 #[cfg(feature = "std")]
 pub use answers::threads::Threads;
 pub use answers::transfer::{
     Image, Merge, Pixels, Sampling, Transfer, TransferOptions, Transferred, Values, Weights,
 };
-pub use answers::union::ring_of_viewpoints;
 pub use answers::visibility::Visibility;
 pub use answers::visibility_map::{MapOptions, VisibilityMap};
+pub use base::MAX_POINTS;
 #[cfg(feature = "stop")]
 #[doc(hidden)]
 pub use base::beat::{Stopped, stop, stop_by};
 pub use base::error::Error;
-pub use base::limit::MAX_POINTS;
 pub use cloud::noise::Surface;
 pub use cloud::point_cloud::{NonFinite, PointCloud};
 pub use cloud::points::Position;
 pub use cloud::selection::Within;
 #[cfg(feature = "higher")]
 pub use dimensions::{MAX_DIMENSION, PointCloudNd};
+pub use view::camera::Seat;
 pub use view::camera::{Camera, Convention, Pose};
 pub use view::distortion::CameraModel;
 pub use view::guarantees::{permissible_curvature, radius_bound};
 pub use view::options::{Exponential, Inversion, Options, Radius};
 pub use view::radius::ChosenRadius;
-pub use view::seat::Seat;
 
 /// The documents' Rust snippets, as documentation tests.
 #[cfg(doctest)]

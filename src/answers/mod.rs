@@ -4,7 +4,6 @@
 
 pub(crate) mod calibration;
 pub(crate) mod camera;
-pub(crate) mod coverage;
 pub(crate) mod denoise;
 pub(crate) mod direction;
 pub(crate) mod horizon;
@@ -12,15 +11,13 @@ pub(crate) mod illumination;
 pub(crate) mod looks;
 pub(crate) mod memory;
 pub(crate) mod merge;
-pub(crate) mod observer;
 pub(crate) mod panorama;
 pub(crate) mod part;
 pub(crate) mod placement;
 pub(crate) mod reconstruct;
-pub(crate) mod sector;
 pub(crate) mod sees;
+pub(crate) mod several;
 pub(crate) mod threads;
 pub(crate) mod transfer;
-pub(crate) mod union;
 pub(crate) mod visibility;
 pub(crate) mod visibility_map;

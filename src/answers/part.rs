@@ -12,9 +12,9 @@ use crate::base::error::Error;
 use crate::base::threads::deal;
 use crate::cloud::point_cloud::PointCloud;
 use crate::cloud::selection::{Region, Within};
+use crate::view::camera::Seat;
 use crate::view::options::Options;
 use crate::view::resolved::looks;
-use crate::view::seat::Seat;
 
 impl PointCloud {
     /// The cloud of the indices that `mask` marks, for many views. The answers are those of a

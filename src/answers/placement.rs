@@ -6,9 +6,9 @@ use crate::answers::threads::Threads;
 use crate::base::allocation::{copied, filled, reserve, with_capacity};
 use crate::base::error::{Error, in_range};
 use crate::cloud::point_cloud::PointCloud;
+use crate::view::camera::Seat;
 use crate::view::options::Options;
 use crate::view::refusals::QuestionKind;
-use crate::view::seat::Seat;
 
 /// What is wanted of chosen viewpoints.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

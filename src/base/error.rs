@@ -2,7 +2,7 @@
 
 use core::fmt::{self, Write};
 
-use crate::base::limit::MAX_POINTS;
+use crate::base::MAX_POINTS;
 
 /// Why a cloud, a viewpoint or an option was refused.
 ///
@@ -59,7 +59,7 @@ pub enum Error {
     Radius {
         /// The radius as given.
         radius: f64,
-        /// The smallest radius that would be accepted, as far as it is known.
+        /// The smallest radius that would be accepted; 0 for one that is not finite and positive.
         farthest: f64,
     },
     /// A distance from the viewpoint, or twice the radius, exceeds the range of `f64`.

@@ -3,9 +3,9 @@
 use alloc::vec::Vec;
 use core::ops::Range;
 
+use crate::base::MAX_POINTS;
 use crate::base::allocation::{OutOfMemory, with_capacity};
 use crate::base::error::Error;
-use crate::base::limit::MAX_POINTS;
 use crate::base::real::one_by_one;
 
 /// A point as three coordinates, `[f32; 3]` or `[f64; 3]`. Single precision is stored as

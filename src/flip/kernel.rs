@@ -4,7 +4,7 @@
 //!
 //! pow and exp come from `libm` in every build, so that all of them round alike.
 
-use crate::base::build::FULL;
+use crate::base::FULL;
 use crate::base::real::smaller;
 
 /// The new distance |q| of a point at distance d from the viewpoint.

@@ -4,13 +4,11 @@
 //! Leaving out a coordinate maps the plane one-to-one and keeps rays, lines and
 //! convexity, so nothing is rounded.
 
-use alloc::vec::Vec;
-use glam::DVec3;
-
 use crate::base::allocation::{OutOfMemory, filled, with_capacity};
 use crate::base::sort::sorted_places;
-use crate::hull::chain::convex_chain;
 use crate::hull::predicates::{Sign, orient2d};
+use alloc::vec::Vec;
+use glam::DVec3;
 
 const ORIGIN: [f64; 2] = [0.0; 2];
 
@@ -119,4 +117,24 @@ fn mark_in_plane(
         }
     }
     Ok(())
+}
+
+/// Andrew's monotone chain: the hull's lower side for points sorted from left to right,
+/// its upper side from right to left. Points in line with their neighbors are kept.
+/// `chain` has room for all.
+pub(super) fn convex_chain(
+    sorted: &mut dyn Iterator<Item = u32>,
+    at: &dyn Fn(u32) -> [f64; 2],
+    chain: &mut Vec<u32>,
+) {
+    chain.clear();
+    for next in sorted {
+        while let [.., before, last] = chain[..] {
+            if orient2d(at(before), at(last), at(next)) != Sign::Negative {
+                break;
+            }
+            chain.pop();
+        }
+        chain.push(next);
+    }
 }

@@ -14,7 +14,7 @@ use glam::DVec3;
 
 use crate::base::allocation::{OutOfMemory, filled, push, reserve, with_capacity};
 use crate::base::sort::sorted_places;
-use crate::hull::chain::convex_chain;
+use crate::hull::flat::convex_chain;
 use crate::hull::order;
 use crate::hull::outer_faces::{Exit, OuterFaces, border_of};
 use crate::hull::predicates::{Sign, orient2d, side_of_face};

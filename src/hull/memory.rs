@@ -3,9 +3,9 @@
 
 use alloc::vec::Vec;
 
+use crate::base::FULL;
 use crate::base::allocation::{OutOfMemory, push};
 use crate::base::beat;
-use crate::base::build::FULL;
 use crate::base::real::one_by_one;
 use crate::flip::inversion::Flip;
 use crate::hull::angular_order::AngularOrder;

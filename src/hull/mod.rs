@@ -14,10 +14,8 @@ mod angular_order;
 #[cfg(debug_assertions)]
 mod assertions;
 mod boxes;
-mod chain;
 mod depth;
 mod dual_plane;
-mod enclosed;
 mod exact_sum;
 mod flat;
 mod flipped;
@@ -33,7 +31,6 @@ mod predicates;
 mod reaches;
 mod share;
 mod topology;
-mod triangles;
 
 pub(crate) use boxes::hides_box;
 pub(crate) use depth::{Window, direction, place};

@@ -1,10 +1,9 @@
 //! A real camera: where a point appears in its image, and whether it is inside.
 
-use glam::{DMat3, DVec3};
-
 use crate::base::error::Error;
 use crate::base::real::{larger, square_root};
 use crate::view::distortion::{CameraModel, Distortion};
+use glam::{DMat3, DVec3};
 
 /// The axes of a camera.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -318,5 +317,42 @@ impl Lens<'_> {
     pub(crate) fn towards(&self, p: [f64; 3]) -> [f32; 3] {
         let v = self.place - DVec3::from_array(p);
         v.normalize_or_zero().as_vec3().to_array()
+    }
+}
+
+/// A viewpoint, which looks everywhere, or a camera, which sees only what is in its image. Points outside of the image
+/// still hide others.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[expect(
+    clippy::large_enum_variant,
+    reason = "seats are few, and a box is not Copy"
+)]
+pub enum Seat {
+    /// A viewpoint.
+    Viewpoint([f64; 3]),
+    /// A camera.
+    Camera(Camera),
+}
+
+impl Seat {
+    /// Its place, in the cloud's coordinates.
+    #[must_use]
+    pub fn position(&self) -> [f64; 3] {
+        match self {
+            Self::Viewpoint(place) => *place,
+            Self::Camera(camera) => camera.position(),
+        }
+    }
+}
+
+impl From<[f64; 3]> for Seat {
+    fn from(viewpoint: [f64; 3]) -> Self {
+        Self::Viewpoint(viewpoint)
+    }
+}
+
+impl From<Camera> for Seat {
+    fn from(camera: Camera) -> Self {
+        Self::Camera(camera)
     }
 }

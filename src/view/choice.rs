@@ -3,8 +3,8 @@
 
 use alloc::vec::Vec;
 
+use crate::base::FULL;
 use crate::base::allocation::with_capacity;
-use crate::base::build::FULL;
 use crate::base::error::Error;
 use crate::cloud::point_cloud::PointCloud;
 use crate::flip::inversion::Flip;

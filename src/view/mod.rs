@@ -10,4 +10,3 @@ pub(crate) mod radius;
 pub(crate) mod refusals;
 pub(crate) mod resolved;
 pub(crate) mod search;
-pub(crate) mod seat;

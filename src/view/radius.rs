@@ -68,7 +68,11 @@ pub(crate) const LARGEST: f64 = f64::MAX / 2.0 * (1.0 - 1e-15);
 pub(crate) fn given(choice: Radius, farthest: f64) -> Result<ChosenRadius, Error> {
     match choice {
         Radius::Absolute(radius) => {
-            if !(radius > 0.0 && radius.is_finite() && radius >= farthest) {
+            if !(radius > 0.0 && radius.is_finite()) {
+                // No distance matters.
+                let farthest = 0.0;
+                Err(Error::Radius { radius, farthest })
+            } else if radius < farthest {
                 Err(Error::Radius { radius, farthest })
             } else if radius > LARGEST {
                 Err(Error::RadiusOverflow {

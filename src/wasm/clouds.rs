@@ -8,8 +8,8 @@ use std::thread_local;
 use wasm_bindgen::prelude::*;
 
 use crate::answers::memory::ViewMemory;
+use crate::base::FULL;
 use crate::base::allocation::push;
-use crate::base::build::FULL;
 use crate::wasm::failure::disposed;
 use crate::wasm::objects::numbered;
 use crate::wasm::options::ViewOptions;

@@ -8,7 +8,7 @@ use wasm_bindgen::JsCast;
 use wasm_bindgen::prelude::*;
 
 use crate::PointCloud;
-use crate::base::build::FULL;
+use crate::base::FULL;
 use crate::hull::Memory;
 use crate::view::refusals::QuestionKind;
 use crate::wasm::answer::{answered, chosen};

@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 use js_sys::{Function, Uint8Array};
 use wasm_bindgen::prelude::*;
 
-use crate::base::build::FULL;
+use crate::base::FULL;
 use crate::{Exponential, Inversion, NonFinite, Options, Radius, Within};
 
 // Without serde: its messages about wrong types bring the formatting of floats, 30 kB.

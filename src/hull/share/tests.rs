@@ -31,12 +31,16 @@ fn division(
 }
 
 /// A share whose hull holds the near points.
-fn near_share<'a>(memory: &'a mut Memory, flipped: &'a Flipped, division: Division) -> Share<'a> {
+fn near_share<'a>(
+    memory: &'a mut Memory,
+    flipped: &'a Flipped,
+    division: Division,
+) -> SectorHull<'a> {
     let corners = outer_boundary::seed(flipped).unwrap();
     let room = flipped.len();
     memory.hull.start(corners, flipped.reach(), room).unwrap();
     memory.clear_marks(room).unwrap();
-    let mut share = Share {
+    let mut sector = SectorHull {
         hull: &mut memory.hull,
         flipped,
         division,
@@ -45,8 +49,8 @@ fn near_share<'a>(memory: &'a mut Memory, flipped: &'a Flipped, division: Divisi
         open_vertices: Vec::new(),
         on_boundary: Vec::new(),
     };
-    share.add_near(u64::MAX).unwrap();
-    share
+    sector.add_near(u64::MAX).unwrap();
+    sector
 }
 
 /// The viewpoint is just inside of a large face: the middle of a cap may lie beyond this face. Then no
@@ -74,15 +78,15 @@ fn no_ring_is_looked_for_behind_a_near_face() {
     for number in 0..7 {
         let mut memory = Memory::new();
         let division = division(&points, [0.0; 3], 10.0, [number, 7]);
-        let mut share = near_share(&mut memory, &flipped, division);
+        let mut sector = near_share(&mut memory, &flipped, division);
         for corner in corners.clone() {
-            share.add(corner).unwrap();
+            sector.add(corner).unwrap();
         }
-        let hull = &share.hull;
+        let hull = &sector.hull;
         let outer = || hull.surface.alive().filter(|(id, _)| hull.is_outer(*id));
         let is_beyond = |q| outer().any(|(_, face)| hull.vertices.side(face, q) == Sign::Positive);
-        if share.division.outside().any(is_beyond) {
-            assert!(share.outside().unwrap().is_empty());
+        if sector.division.outside().any(is_beyond) {
+            assert!(sector.outside().unwrap().is_empty());
             doubtful += 1;
         }
     }
@@ -100,36 +104,36 @@ fn rings_are_made_of_clear_faces() {
         for number in 0..3 {
             let mut memory = Memory::new();
             let division = division(&points, viewpoint, 40.0, [number, 3]);
-            let mut share = near_share(&mut memory, &flipped, division);
-            share.open_own_vertices().unwrap();
+            let mut sector = near_share(&mut memory, &flipped, division);
+            sector.open_own_vertices().unwrap();
             let mut clear = 0;
-            for (id, face) in share.hull.surface.alive() {
-                let owns = |v: Vertex| v != ORIGIN && share.division.owns(share.hull.point(v));
+            for (id, face) in sector.hull.surface.alive() {
+                let owns = |v: Vertex| v != ORIGIN && sector.division.owns(sector.hull.point(v));
                 let indices = face
                     .vertices
-                    .map(|v| share.hull.vertices.points[v as usize]);
-                let places = face.vertices.map(|v| share.hull.vertices.at(v));
+                    .map(|v| sector.hull.vertices.points[v as usize]);
+                let places = face.vertices.map(|v| sector.hull.vertices.at(v));
                 let is_clear = face.vertices.into_iter().all(owns)
-                    && share.hull.is_sound(id)
-                    && share.division.is_clear(indices, places);
-                assert_eq!(share.is_clear(id), is_clear);
+                    && sector.hull.is_sound(id)
+                    && sector.division.is_clear(indices, places);
+                assert_eq!(sector.is_clear(id), is_clear);
                 clear += u32::from(is_clear);
             }
             assert!(clear > 50, "{clear}");
 
-            let outside = share.outside().unwrap();
+            let outside = sector.outside().unwrap();
             let has_ghosts = viewpoint[2] > 1.0;
-            let is_ghost = |id: &FaceId| share.hull.corners(*id).unwrap().contains(&ORIGIN);
-            let ghosts = share.hull.surface.alive().filter(|(id, _)| is_ghost(id));
+            let is_ghost = |id: &FaceId| sector.hull.corners(*id).unwrap().contains(&ORIGIN);
+            let ghosts = sector.hull.surface.alive().filter(|(id, _)| is_ghost(id));
             assert_eq!(
                 ghosts.count(),
                 outside.iter().filter(|id| is_ghost(id)).count()
             );
             assert!(outside.iter().any(is_ghost) || !has_ghosts);
-            for q in share.division.outside() {
+            for q in sector.division.outside() {
                 let is_met = outside
                     .iter()
-                    .any(|&id| !is_ghost(&id) && share.hull.pierces(id, q));
+                    .any(|&id| !is_ghost(&id) && sector.hull.pierces(id, q));
                 assert!(is_met || has_ghosts, "{q}");
             }
         }

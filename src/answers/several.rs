@@ -1,19 +1,18 @@
 //! One answer from several viewpoints (paper §5: more viewpoints around C help at
 //! silhouettes).
 
-use alloc::vec::Vec;
-use glam::DVec3;
-
 use crate::answers::threads::Threads;
 use crate::answers::visibility::Visibility;
 use crate::base::allocation::{filled, with_capacity};
 use crate::base::error::{Error, in_range};
 use crate::base::real::{sine_cosine, square_root};
 use crate::cloud::point_cloud::PointCloud;
+use crate::view::camera::Seat;
 use crate::view::options::{Inversion, Options};
 use crate::view::radius::ChosenRadius;
 use crate::view::refusals::QuestionKind;
-use crate::view::seat::Seat;
+use alloc::vec::Vec;
+use glam::DVec3;
 
 impl PointCloud {
     /// Which points are visible from at least one of `viewpoints`, or in the image of at least one camera? Each view chooses its own R by
@@ -188,4 +187,47 @@ pub fn ring_of_viewpoints(
         ring.push(finite(center + (right * cos + up * sin) * radius)?);
     }
     Ok(ring)
+}
+
+impl PointCloud {
+    /// How many of `viewpoints`, or of cameras, see each index? The memory does not grow with their number.
+    ///
+    /// ```
+    /// use hidden_point_removal::{Options, PointCloud};
+    ///
+    /// let cloud = PointCloud::new(&[[0.0, 0.0, 1.0], [0.0, 0.0, 2.0], [1.0, 0.0, 0.0]])?;
+    /// let viewpoints = [[0.0, 0.0, 5.0], [0.0, 0.0, -5.0]];
+    /// assert_eq!(cloud.coverage(&viewpoints, &Options::default())?, [1, 1, 2]);
+    /// # Ok::<(), hidden_point_removal::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Excludes`] for scores; [`Error::Camera`]; otherwise as [`PointCloud::visible_from`].
+    pub fn coverage<S: Copy + Into<Seat> + Sync>(
+        &self,
+        viewpoints: &[S],
+        options: &Options,
+    ) -> Result<Vec<u32>, Error> {
+        self.alone().coverage(viewpoints, options)
+    }
+}
+
+impl Threads<'_> {
+    /// As [`PointCloud::coverage`].
+    ///
+    /// # Errors
+    /// As [`PointCloud::coverage`].
+    pub fn coverage<S: Copy + Into<Seat> + Sync>(
+        &self,
+        viewpoints: &[S],
+        options: &Options,
+    ) -> Result<Vec<u32>, Error> {
+        let mut counts: Vec<u32> = filled(self.len(), 0)?;
+        options.check(QuestionKind::Coverage)?;
+        self.each_view(self.count, viewpoints, options, &mut |_, seen| {
+            let indices = seen.indices().iter();
+            indices.for_each(|&index| counts[index as usize] += 1);
+        })?;
+        Ok(counts)
+    }
 }
