@@ -7,14 +7,7 @@ export default defineConfig({
     hookTimeout: 300_000,
     expect: { poll: { timeout: 60_000 } },
     projects: [
-      {
-        extends: true,
-        test: {
-          name: "node",
-          server: { deps: { external: [/\/dist\//] } },
-          include: ["tests/{package,consumers,scripts}/**/*.test.ts"],
-        },
-      },
+      { extends: true, test: { name: "node", include: ["tests/{package,consumers,scripts}/**/*.test.ts"] } },
       {
         extends: true,
         test: {

@@ -5,6 +5,7 @@ import { gzipSync } from "node:zlib";
 import { type BuildOptions, build as bundleWith } from "esbuild";
 
 import { TSC, inRoot, mustRun, say } from "../lib/run.js";
+import { makeOptions } from "./options.js";
 import { WASM_FILES, buildWasm } from "./wasm.js";
 import { unlessUnchanged } from "../lib/stamp.js";
 import { setUpForBuild } from "../setup/rust.js";
@@ -62,6 +63,7 @@ const GLOBAL = "dist/hidden-point-removal.global.js";
 
 /** Installs what is missing and builds the npm package: the wasm, the modules and their types, in dist. */
 export async function buildPackage(): Promise<void> {
+  makeOptions();
   await setUpForBuild();
   await buildWasm();
   const work = {

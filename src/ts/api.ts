@@ -30,7 +30,7 @@ export type { Cone, VisibilityMapOptions } from "./query/map-options.js";
 export type { Panorama, PanoramaOptions } from "./query/panorama-options.js";
 export type { Placement } from "./query/placement.js";
 export type { CoverageOptions, PlacementOptions } from "./query/surveys.js";
-export type { Within } from "./query/within.js";
+export type { SurfaceKind, Within } from "./query/option-types.js";
 export type { Inversion, RadiusRule, ResolvedInversion, VisibilityOptions } from "./query/view-options.js";
 export { initSync } from "./instance/init-sync.js";
 export { VisibilityMap, type VisibilityMapUniforms } from "./cloud/visibility-map.js";

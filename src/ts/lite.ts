@@ -9,11 +9,14 @@ import { type Engine, required } from "./instance/engine.js";
 import { initFrom, startSync } from "./instance/start.js";
 import * as glue from "./lite/hpr_bg.js";
 import type { ChosenRadius } from "./query/answers.js";
+import { VIEW_ROWS } from "./query/option-rows.js";
 import {
+  type Checked,
   CLOUD_OPTIONS,
   cloudSettings,
   givenOptions,
   pick,
+  readOptions,
   type PointCloudOptions as FullCloudOptions,
 } from "./query/options.js";
 import { type Positions, readViewpoint, type Viewpoint } from "./query/positions.js";
@@ -76,7 +79,8 @@ export interface Visibility extends Omit<FullVisibility, "inversion" | "exact" |
   readonly exact: true;
 }
 
-const VIEW_OPTIONS = ["radius", "exponent", "inversion"] as const;
+const { radius: RADIUS, exponent: EXPONENT, inversion: INVERSION } = VIEW_ROWS;
+const ROWS = { radius: RADIUS, exponent: EXPONENT, inversion: INVERSION };
 const MOST_DIMENSIONS = 3;
 
 const binary: Binary = {
@@ -166,10 +170,10 @@ export class PointCloud {
    */
   visibleFrom(viewpoint: Viewpoint, options?: VisibilityOptions): Visibility {
     this.#cloud.requireOpen();
-    const given = givenOptions(options, VIEW_OPTIONS);
+    const given = readOptions(options, ROWS, this.#cloud.dimension) as Checked<VisibilityOptions, typeof ROWS>;
     const [x, y, z] = readViewpoint(viewpoint, this.#cloud.dimension) as [number, number, number];
-    refuseOpposite("radius", given["radius"]);
-    const settings = { ...NO_OPTIONS, ...chosenRadius(given), ...chosenInversion(given["inversion"]) };
+    refuseOpposite("radius", given.radius);
+    const settings = { ...NO_OPTIONS, ...chosenRadius(given), ...chosenInversion(given.inversion) };
     const { instance, handle } = this.#cloud.requireOpen();
     const answer = instance.call((bindings) => bindings.visibleFrom(handle, x, y, z, settings));
     const { indices, radius, exponent, evaluations, scales } = answer;
@@ -238,10 +242,10 @@ export function hiddenPointRemoval(
   viewpoint: Viewpoint,
   options?: PointCloudOptions & VisibilityOptions,
 ): Visibility {
-  const given = givenOptions(options, CLOUD_OPTIONS, VIEW_OPTIONS);
+  const given = givenOptions(options, CLOUD_OPTIONS, Object.keys(ROWS));
   const cloud = new PointCloud(positions, pick(given, CLOUD_OPTIONS));
   try {
-    return cloud.visibleFrom(viewpoint, pick(given, VIEW_OPTIONS));
+    return cloud.visibleFrom(viewpoint, pick(given, Object.keys(ROWS)));
   } finally {
     cloud.dispose();
   }

@@ -134,6 +134,17 @@ pub fn noise(handle: u32) -> Result<f64, JsValue> {
     })
 }
 
+/// What the survey of the points found: 0 a clean surface, 1 a noisy one, 2 layers.
+#[cfg(feature = "wasm")]
+#[wasm_bindgen]
+pub fn surface(handle: u32) -> Result<u32, JsValue> {
+    CLOUDS.with_borrow(|clouds| match clouds.get(handle as usize) {
+        Some(Some(Cloud::Space(cloud))) => Ok(cloud.surface()? as u32),
+        Some(Some(_)) => Ok(0),
+        _ => Err(disposed()),
+    })
+}
+
 /// The cloud, or the part of it that the last mask left.
 fn part(cloud: &PointCloud, is_masked: bool) -> &PointCloud {
     match &cloud.kept.masked {

@@ -66,6 +66,8 @@ interface ViewOptions {
   scores: boolean;
   /** Negative: automatic. */
   thickness: number;
+  /** 0 automatic, 1 clean, 2 noisy, 3 layered. */
+  surface: number;
   /** A distance, the lowest x, y, z and the highest ones; infinite where there is no limit. */
   within: ArrayLike<number>;
   mask?: Uint8Array | undefined;

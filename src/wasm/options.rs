@@ -6,7 +6,7 @@ use js_sys::{Function, Uint8Array};
 use wasm_bindgen::prelude::*;
 
 use crate::base::FULL;
-use crate::{Exponential, Inversion, NonFinite, Options, Radius, Within};
+use crate::{Exponential, Inversion, NonFinite, Options, Radius, Surface, Within};
 
 // Without serde: its messages about wrong types bring the formatting of floats, 30 kB.
 #[wasm_bindgen]
@@ -33,6 +33,8 @@ extern "C" {
     fn scores(this: &ViewOptions) -> bool;
     #[wasm_bindgen(method, getter)]
     fn thickness(this: &ViewOptions) -> f64;
+    #[wasm_bindgen(method, getter)]
+    fn surface(this: &ViewOptions) -> u32;
     #[wasm_bindgen(method, getter)]
     fn within(this: &ViewOptions) -> Vec<f64>;
     #[wasm_bindgen(method, getter)]
@@ -74,6 +76,12 @@ impl ViewOptions {
             scores: self.scores(),
             // A negative number stands for none.
             thickness: Some(self.thickness()).filter(|thickness| *thickness >= 0.0),
+            surface: match self.surface() {
+                1 => Some(Surface::Clean),
+                2 => Some(Surface::Noisy),
+                3 => Some(Surface::Layered),
+                _ => None,
+            },
             within: self.read_within(),
             ..operator
         }

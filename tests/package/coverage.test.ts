@@ -59,7 +59,11 @@ it("questions that make no sense are refused", async () => {
     [() => cloud.coverage(places, { looks: 3, scores: true }), "option", /scores cannot be combined with coverage/],
     [() => cloud.placeViewpoints(places, { looks: 2, scores: true }), "option", /scores cannot be combined/],
     [() => cloud.placeViewpoints(places, { count: 0 }), "option", /count must be an integer from 1/],
-    [() => cloud.placeViewpoints(places, { share: 1.5 }), "option", /share must be above 0 and at most 1, got 1.5/],
+    [
+      () => cloud.placeViewpoints(places, { share: 1.5 }),
+      "option",
+      /share must be a finite number, above 0 and at most 1, got 1.5/,
+    ],
     [() => cloud.placeViewpoints(places, { weights: [1] }), "option", /one number for each of 3000 indices, got 1/],
     [() => cloud.placeViewpoints(places, { weights: weights.map(() => -1) }), "option", /weights\[0\]/],
     [() => cloud.coverage(places, { onProgress: 5 as never }), "option", /onProgress must be a function/],

@@ -47,10 +47,8 @@ describe.each(all)("with %s", (_, options, count) => {
       seconds(1);
       for (const worker of scripted) worker.emit("message", "beat");
     }
-    scripted.forEach((worker, number) => {
-      worker.answers(found([number], 100));
-    });
-    expect((await asked).count).toBe(count);
+    scripted[0]!.answers(found([3], 100));
+    expect((await asked).count).toBe(1);
     expect(scripted).toHaveLength(count);
     await cloud.dispose();
   });
@@ -74,10 +72,8 @@ describe.each(all)("with %s", (_, options, count) => {
       }
     }
     expect(later()[0]!.posted[0]!["positions"]).toEqual(points);
-    later().forEach((worker, number) => {
-      worker.answers(found([number], 100));
-    });
-    expect((await asked).count).toBe(count);
+    later()[0]!.answers(found([3], 100));
+    expect((await asked).count).toBe(1);
     expect(kinds(count).at(-1)).toBe("autoRadius");
     later()[0]!.answers({ radius: 3, exponent: 1, evaluations: 1 });
     expect((await waiting).radius).toBe(3);

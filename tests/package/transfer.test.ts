@@ -130,11 +130,11 @@ it("bad images and options are refused", async () => {
     [[good[0], good[0], { ...good[0]!, width: 3 }], {}, "option", /size of its camera/],
     [[good[0], good[0], { data: new Uint8Array(5), ...size }], {}, "option", /same number of numbers/],
     [[good[0], good[0], { data: new Uint8Array(3 * 64 * 48), ...size }], {}, "option", /1 channels as the first/],
-    [good, { merge: "max" }, "option", /merge must be one of/],
-    [good, { weights: "none" }, "option", /weights must be one of/],
+    [good, { merge: "max" }, "option", /merge must be "mean", "median", "vote" or "best"/],
+    [good, { weights: "none" }, "option", /weights must be "distance", "angle" or "score"/],
     [good, { merge: "vote", sampling: "bilinear" }, "option", /cannot be combined/],
     [good, { looks: 3, scores: true }, "option", /scores cannot be combined/],
-    [good, { weights: "score", exponent: 3 }, "option", /scores can be asked for only with looks/],
+    [good, { weights: "score", exponent: 3 }, "option", /scores can be given only with looks/],
     [good, { colour: 1 }, "option", /unknown option/],
   ];
   for (const [images, options, code, message] of bad) {

@@ -4,7 +4,8 @@ import { HprError } from "../base/errors.js";
 import type { ChosenColumns } from "../formats/axes.js";
 import { viewSettings, type VisibilityOptions } from "../query/view-options.js";
 import { MERGES } from "../query/merge-values.js";
-import { type TransferOptions, WEIGHTS } from "../query/transfer.js";
+import { type TransferOptions } from "../query/transfer.js";
+import { TRANSFER_ROWS } from "../query/option-rows.js";
 import { MAX_WORKERS } from "../worker/workers.js";
 import { endingOf, FORMATS } from "./formats/formats.js";
 import { chosenFormat, type OutputFormat } from "./output-format.js";
@@ -97,7 +98,7 @@ export function readArguments(args: string[]): Settings | "help" | "version" {
         : {
             images: values.images,
             merge: oneOf("merge", values.merge, MERGES),
-            weights: oneOf("weights", values.weights, WEIGHTS),
+            weights: oneOf("weights", values.weights, TRANSFER_ROWS.weights.words),
           },
     options,
     threshold,

@@ -10,6 +10,7 @@ import {
   CLOUD_OPTIONS,
   cloudSettings,
   givenOptions,
+  readOptions,
   listener,
   pick,
   type PointCloudOptions,
@@ -21,6 +22,7 @@ import type { VisibilityMapOptions } from "../query/map-options.js";
 import type { IlluminationOptions, ReconstructionOptions } from "../query/queries.js";
 import { type Calibration, calibrationQuery, type Station } from "../query/calibration.js";
 import type { Placement } from "../query/placement.js";
+import type { SurfaceKind } from "../query/option-types.js";
 import type { ViewpointOrCamera } from "../query/seats.js";
 import type { SeenBy } from "../query/seen-by.js";
 import { surveyQuestion } from "../query/survey-methods.js";
@@ -97,6 +99,16 @@ export class PointCloud {
    */
   get noise(): number {
     return this.#core.ask({ kind: "noise" }).noise;
+  }
+
+  /**
+   * What the survey of the points found: `"clean"` for even samples of a surface, `"noisy"` where a sensor's noise is
+   * everywhere, `"layered"` for registered scans. The looks follow it, unless the option `surface` says otherwise.
+   *
+   * @throws HprError `too-large`, `disposed`, `internal`.
+   */
+  get surface(): SurfaceKind {
+    return this.#core.ask({ kind: "surface" }).surface;
   }
 
   /**
@@ -269,9 +281,9 @@ export class PointCloud {
   }
 
   /** Asks all views of a task, one after another. */
-  #survey<Result>([method, options, names, read]: SurveyQuestion<Result>): Result {
+  #survey<Result>([method, options, rows, read]: SurveyQuestion<Result>): Result {
     this.#core.requireOpen();
-    const given = givenOptions(options, names);
+    const given = readOptions(options, rows, this.#core.dimension);
     const progress = listener(given, "onProgress") as CoverageOptions["onProgress"];
     const task = read(this.#core.dimension, given, progress);
     const { size } = this.#core;

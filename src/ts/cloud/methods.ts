@@ -1,45 +1,52 @@
 import type { Answers } from "../query/answers.js";
-import { type CloudSettings, givenOptions } from "../query/options.js";
+import {
+  type IlluminationOptions,
+  LIGHT_ROWS,
+  MAP_ROWS,
+  MESH_ROWS,
+  PANORAMA_ROWS,
+  type PanoramaOptions,
+  type ReconstructionOptions,
+  VIEW_ROWS,
+  type VisibilityMapOptions,
+  type VisibilityOptions,
+} from "../query/option-rows.js";
+import { type Checked, type CloudSettings, readOptions, type Rows } from "../query/options.js";
 import {
   cameraQuery,
   directionQuery,
-  ILLUMINATION_OPTIONS,
   illuminationQuery,
   mapQuery,
   panoramaQuery,
   type Query,
   type QueryKind,
   radiusQuery,
-  RECONSTRUCTION_OPTIONS,
   reconstructionQuery,
   seesQuery,
   severalQuery,
   viewQuery,
 } from "../query/queries.js";
-import { MAP_OPTIONS } from "../query/map-options.js";
-import { PANORAMA_OPTIONS } from "../query/panorama-options.js";
-import { VIEW_OPTIONS } from "../query/view-options.js";
 import { CameraAnswer, ReconstructionAnswer, VisibilityAnswer } from "./visibility.js";
 import { VisibilityMap } from "./visibility-map.js";
 
-type Given = Record<string, unknown>;
+type View = Checked<VisibilityOptions, typeof VIEW_ROWS>;
 
-/** A method that asks a cloud one question. */
-interface Method<Kind extends QueryKind = QueryKind> {
+/** A method that asks a cloud one question. `Given`: its options, as their rows have checked them. */
+interface Method<Kind extends QueryKind, Given> {
   /** The number of arguments before the options. */
   readonly count: number;
-  readonly options: readonly string[];
+  readonly rows: Rows;
   readonly question: (settings: CloudSettings, given: Given, ...args: readonly unknown[]) => Query<Kind>;
   readonly answer: (found: Answers[Kind]) => unknown;
 }
 
-function method<Kind extends QueryKind>(
+function method<Kind extends QueryKind, Given = View>(
   count: number,
-  options: readonly string[],
-  question: Method<Kind>["question"],
-  answer: Method<Kind>["answer"],
-): Method<Kind> {
-  return { count, options, question, answer };
+  rows: Rows,
+  question: Method<Kind, Given>["question"],
+  answer: Method<Kind, Given>["answer"],
+): Method<Kind, Given> {
+  return { count, rows, question, answer };
 }
 
 const visibility = (found: Answers["visibleFrom"]) => new VisibilityAnswer(found);
@@ -48,67 +55,67 @@ const visibility = (found: Answers["visibleFrom"]) => new VisibilityAnswer(found
 export const METHODS = {
   visibleFrom: method<"visibleFrom">(
     1,
-    VIEW_OPTIONS,
+    VIEW_ROWS,
     ({ dimension }, given, viewpoint) => viewQuery(dimension, viewpoint, given),
     visibility,
   ),
-  visibilityMap: method<"visibilityMap">(
+  visibilityMap: method<"visibilityMap", Checked<VisibilityMapOptions, typeof MAP_ROWS>>(
     1,
-    MAP_OPTIONS,
+    MAP_ROWS,
     ({ dimension }, given, viewpoint) => mapQuery(dimension, viewpoint, given),
     (made) => new VisibilityMap(made),
   ),
-  panorama: method<"panorama">(
+  panorama: method<"panorama", Checked<PanoramaOptions, typeof PANORAMA_ROWS>>(
     1,
-    PANORAMA_OPTIONS,
+    PANORAMA_ROWS,
     ({ dimension }, given, viewpoint) => panoramaQuery(dimension, viewpoint, given),
     (made) => made,
   ),
   visibleFromDirection: method<"visibleFromDirection">(
     1,
-    VIEW_OPTIONS,
+    VIEW_ROWS,
     ({ dimension }, given, direction) => directionQuery(dimension, direction, given),
     visibility,
   ),
   visibleFromAny: method<"visibleFromSeveral" | "visibleFromSeats">(
     1,
-    VIEW_OPTIONS,
+    VIEW_ROWS,
     ({ dimension }, given, viewpoints) => severalQuery(dimension, viewpoints, given),
     visibility,
   ),
   visibleFromAtLeast: method<"visibleFromSeveral" | "visibleFromSeats">(
     2,
-    VIEW_OPTIONS,
+    VIEW_ROWS,
     ({ dimension }, given, k, viewpoints) => severalQuery(dimension, viewpoints, given, { k }),
     visibility,
   ),
   visibleFromCamera: method<"visibleFromCamera">(
     1,
-    VIEW_OPTIONS,
+    VIEW_ROWS,
     ({ dimension }, given, camera) => cameraQuery(dimension, camera, given),
     (found) => new CameraAnswer(found),
   ),
   sees: method<"sees">(
     2,
-    VIEW_OPTIONS,
+    VIEW_ROWS,
     (settings, given, viewpoint, positions) => seesQuery(settings, viewpoint, positions, given),
     ({ seen }) => seen,
   ),
   autoRadius: method<"autoRadius">(
     2,
-    [],
+    {},
     ({ dimension }, _, viewpoint, rule) => radiusQuery(dimension, viewpoint, rule),
     (chosen) => chosen,
   ),
-  reconstruct: method<"reconstruct">(
+  reconstruct: method<"reconstruct", Checked<ReconstructionOptions, typeof MESH_ROWS>>(
     1,
-    RECONSTRUCTION_OPTIONS,
+    MESH_ROWS,
     ({ dimension }, given, viewpoint) => reconstructionQuery(dimension, viewpoint, given),
     (found) => new ReconstructionAnswer(found),
   ),
-  illuminate: method<"illuminate">(
+  illuminate: method<"illuminate", Checked<IlluminationOptions, typeof LIGHT_ROWS>>(
     1,
-    ILLUMINATION_OPTIONS,
+    LIGHT_ROWS,
     ({ dimension }, given, lights) => illuminationQuery(dimension, lights, given),
     ({ brightness }) => brightness,
   ),
@@ -122,8 +129,8 @@ export function readQuestion(
   settings: CloudSettings,
   args: readonly unknown[],
   others: readonly string[] = [],
-): { query: Query; given: Given; answer: (found: never) => unknown } {
-  const { count, options, question, answer } = METHODS[name];
-  const given = givenOptions(args[count], options, others);
-  return { query: question(settings, given, ...args.slice(0, count)), given, answer };
+): { query: Query; given: Record<string, unknown>; answer: (found: never) => unknown } {
+  const { count, rows, question, answer } = METHODS[name];
+  const given = readOptions(args[count], rows, settings.dimension, others);
+  return { query: question(settings, given as never, ...args.slice(0, count)), given, answer };
 }

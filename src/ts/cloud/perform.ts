@@ -14,6 +14,9 @@ interface Target {
   length: number;
 }
 
+/** In the order of the core's numbers. */
+const SURFACES = ["clean", "noisy", "layered"] as const;
+
 type CoreAnswer = ReturnType<Bindings["visibleFrom"]>;
 
 const performers: { [K in QueryKind]: (target: Target, query: Query<K>) => Answers[K] } = {
@@ -113,6 +116,10 @@ const performers: { [K in QueryKind]: (target: Target, query: Query<K>) => Answe
 
   noise: ({ instance, handle, dimension }) => ({
     noise: dimension > 3 ? 0 : instance.call((bindings) => bindings.noise(handle)),
+  }),
+
+  surface: ({ instance, handle, dimension }) => ({
+    surface: SURFACES[dimension > 3 ? 0 : instance.call((bindings) => bindings.surface(handle))]!,
   }),
 
   reconstruct: (target, { viewpoint, settings, maxEdge }) => {

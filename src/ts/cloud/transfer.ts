@@ -3,7 +3,8 @@ import type { Camera } from "../query/camera.js";
 import type { TransferImage } from "../query/images.js";
 import type { SeenBy } from "../query/seen-by.js";
 import { type CoverageOptions, surveyed } from "../query/surveys.js";
-import { TRANSFER_OPTIONS, type Transferred, type TransferOptions, TransferTask } from "../query/transfer.js";
+import { TRANSFER_ROWS, type TransferOptions } from "../query/option-rows.js";
+import { type Transferred, TransferTask } from "../query/transfer.js";
 import type { PointCloud } from "./cloud.js";
 
 /** A `WorkerPointCloud`. */
@@ -46,7 +47,7 @@ export function transfer(
   return ask([
     "transfer",
     options,
-    TRANSFER_OPTIONS,
+    TRANSFER_ROWS,
     (dimension, given, progress) => new TransferTask(dimension, cameras, images, given, progress),
   ]);
 }

@@ -85,10 +85,11 @@ export class VisibilityAnswer implements Visibility {
     this.inversion = answer.inversion;
     this.exact = answer.exact;
     this.#cloudLength = answer.length;
-    if (answer.scores !== undefined) {
+    // Only its own: somebody may have added to Object.prototype.
+    if (Object.hasOwn(answer, "scores") && answer.scores !== undefined) {
       this.scores = answer.scores;
     }
-    if (answer.inverted === true) {
+    if (Object.hasOwn(answer, "inverted") && answer.inverted === true) {
       this.note = INVERTED;
     }
   }

@@ -8,7 +8,7 @@ import { readFile } from "../formats/read.js";
 import { indicesByStation } from "../formats/stations.js";
 import type { InitInput } from "../instance/compile.js";
 import { flag, givenOptions, listener } from "../query/options.js";
-import { abortError, BY_SIGNAL, readSignal } from "../worker/abort.js";
+import { readSignal, reasonOf } from "../worker/abort.js";
 import { type FileSource, refusal, sourceOf } from "./source-of.js";
 import { compiler } from "./wasm.js";
 
@@ -63,12 +63,12 @@ export interface CloudData {
  */
 export async function readCloud(source: FileSource, options: ReadOptions = {}): Promise<CloudData> {
   const { signal, ...settings } = readSettings(options);
-  if (signal?.aborted) throw abortError(BY_SIGNAL);
+  if (signal?.aborted) throw reasonOf(signal);
   const { close, ...named } = await sourceOf(source, signal);
   try {
     return cloudData(await readFile({ ...named, ...settings, signal }));
   } catch (cause) {
-    if (signal?.aborted) throw abortError(BY_SIGNAL);
+    if (signal?.aborted) throw reasonOf(signal);
     throw refusal(named.name, cause);
   } finally {
     await close();

@@ -1,6 +1,6 @@
 import { asError, describe, HprError, typeTag } from "../base/errors.js";
 import { hasNodeModules, importNodeModule } from "../base/node.js";
-import { abortError, BY_SIGNAL } from "../worker/abort.js";
+import { reasonOf } from "../worker/abort.js";
 import { FormatProblem } from "../formats/problem.js";
 import type { Reading } from "../formats/cloud-file.js";
 import { blobSource, bytesSource, type Source, wholeFile } from "../formats/source.js";
@@ -107,7 +107,7 @@ async function fetched(url: URL, signal: AbortSignal | undefined): Promise<Named
       return { source: blobSource(blob), name, ...(/^https?:$/.test(url.protocol) && { beside }), close: nothing };
     }
   } catch (cause) {
-    if (signal?.aborted) throw abortError(BY_SIGNAL);
+    if (signal?.aborted) throw reasonOf(signal);
     throw new HprError("load", `${name} could not be fetched: ${asError(cause).message}`, { cause });
   }
   throw new HprError("load", `${name} could not be fetched: the server answered ${response.status}`);

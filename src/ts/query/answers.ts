@@ -1,4 +1,4 @@
-import type { ResolvedInversion } from "./view-options.js";
+import type { ResolvedInversion, SurfaceKind } from "./option-types.js";
 
 /** How a radius was chosen. */
 export interface ChosenRadius {
@@ -46,6 +46,7 @@ export interface Answers {
   autoRadius: ChosenRadius;
   noise: { noise: number };
   calibrate: { thickness: number; recall: number[]; shown: number; isLow: boolean };
+  surface: { surface: SurfaceKind };
   visibilityMap: {
     data: Float32Array<ArrayBuffer>;
     viewpoint: [number, number, number];

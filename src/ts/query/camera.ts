@@ -101,7 +101,10 @@ export type CameraNumbers = Float64Array<ArrayBuffer>;
 /** Whether a value stands for a camera, and not for a viewpoint. */
 export function isCamera(value: unknown): boolean {
   const marks = [...POSES, "fx", "convention"];
-  return typeof value === "object" && value !== null && marks.some((name) => name in value);
+  // What somebody added to Object.prototype marks no camera.
+  return (
+    typeof value === "object" && value !== null && marks.some((name) => name in value && !(name in Object.prototype))
+  );
 }
 
 /** The camera in the order in which the core reads it (`Camera::of`). The core checks the ranges. */

@@ -41,7 +41,7 @@ export function cameraFromPose(
  * @throws HprError `viewpoint` for a field of view or a size that is out of range.
  */
 export function intrinsicsFromFieldOfView(degrees: number, width: number, height: number): Intrinsics {
-  if (!(degrees > 0 && degrees < 180)) {
+  if (typeof degrees !== "number" || !(degrees > 0 && degrees < 180)) {
     throw new HprError(
       "viewpoint",
       `the field of view must be above 0 and below 180 degrees, got ${describe(degrees)}`,
@@ -78,9 +78,11 @@ export function cameraFromThree(camera: PerspectiveCameraLike, width: number, he
   }
   checkSize(width, height);
   camera.updateWorldMatrix?.(true, false);
-  const projection = list("projectionMatrix", camera.projectionMatrix.elements, 16);
+  const elements = (name: "projectionMatrix" | "matrixWorld") =>
+    list(name, (camera as Partial<PerspectiveCameraLike>)[name]?.elements, 16);
+  const projection = elements("projectionMatrix");
   return {
-    cameraToWorld: list("matrixWorld", camera.matrixWorld.elements, 16),
+    cameraToWorld: elements("matrixWorld"),
     convention: "opengl",
     fx: (projection[0]! * width) / 2,
     fy: (projection[5]! * height) / 2,
@@ -95,15 +97,16 @@ export function cameraFromThree(camera: PerspectiveCameraLike, width: number, he
 
 function checkSize(width: number, height: number): void {
   for (const [name, size] of Object.entries({ width, height })) {
-    if (!(size > 0 && size < Infinity)) {
+    if (typeof size !== "number" || !(size > 0 && size < Infinity)) {
       throw new HprError("viewpoint", `the camera's ${name} must be finite and positive, got ${describe(size)}`);
     }
   }
 }
 
 function list(name: string, values: unknown, count: number): number[] {
-  const numbers = typeof values === "object" && values !== null ? Array.from(values as ArrayLike<unknown>) : [];
-  if (numbers.length !== count || !numbers.every((value) => typeof value === "number")) {
+  const length = typeof values === "object" && values !== null && "length" in values ? values.length : undefined;
+  const numbers = length === count ? Array.from(values as ArrayLike<unknown>) : [];
+  if (length !== count || !numbers.every((value) => typeof value === "number")) {
     throw new HprError("viewpoint", `the camera's ${name} must be ${count} numbers, got ${describe(values)}`);
   }
   return numbers;

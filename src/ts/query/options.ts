@@ -117,6 +117,103 @@ export function cloudSettings(given: Record<string, unknown>, mostDimensions = M
   return { dimension, stride, skipNonFinite: nonFinite === "skip" };
 }
 
+/** What an option may be: a row of the table of options (src/options.json). Without any of these, a reader of its own knows. */
+export interface Row {
+  readonly number?: { readonly least?: number; readonly above?: number; readonly most?: number };
+  readonly words?: readonly string[];
+  readonly whole?: readonly [least: number, most: number];
+  readonly truth?: boolean;
+  readonly call?: boolean;
+  readonly space?: boolean;
+  readonly needs?: string;
+  readonly excludes?: readonly string[];
+}
+
+export type Rows = Readonly<Record<string, Row>>;
+
+/** Options that their rows have checked. Those with readers of their own are unknown still. */
+export type Checked<Options, Table extends Rows> = {
+  [Name in keyof Options]: Name extends keyof Table
+    ? Table[Name] extends { number: object } | { words: object } | { whole: object } | { truth: true } | { call: true }
+      ? Options[Name]
+      : unknown
+    : unknown;
+};
+
+/** Reads the options of a question: their names, and all that their rows say. */
+export function readOptions(
+  options: unknown,
+  rows: Rows,
+  dimension: number,
+  others: readonly string[] = [],
+): Record<string, unknown> {
+  const given = givenOptions(options, Object.keys(rows), others);
+  checkRows(given, rows, dimension);
+  return given;
+}
+
+/** Refuses options that their rows do not allow. */
+export function checkRows(given: Record<string, unknown>, rows: Rows, dimension: number): void {
+  for (const [name, row] of Object.entries(rows)) {
+    const value = given[name];
+    if (value === undefined) continue;
+    if (!fits(row, value)) {
+      throw new HprError("option", `${name} must be ${wanted(row)}, got ${describe(value)}`);
+    }
+    if (value === false && row.truth) continue;
+    const other = row.excludes?.find((one) => given[one] !== undefined);
+    if (other !== undefined) {
+      throw new HprError("option", `${name} and ${other} exclude each other; give one of the two`);
+    }
+    if (row.needs !== undefined && given[row.needs] === undefined) {
+      throw new HprError("option", `${name} can be given only with ${row.needs}`);
+    }
+    if (row.space) requireSpace(name, dimension);
+  }
+}
+
+function fits({ number, words, whole, truth, call }: Row, value: unknown): boolean {
+  if (truth) return typeof value === "boolean";
+  if (call) return typeof value === "function";
+  if (whole) return Number.isInteger(value) && (value as number) >= whole[0] && (value as number) <= whole[1];
+  if (!number && !words) return true;
+  if (words?.includes(value as string)) return true;
+  if (!number || typeof value !== "number") return false;
+  const { least = -Infinity, above = -Infinity, most = Infinity } = number;
+  const isFree = number.least === undefined && number.above === undefined;
+  return isFree || (value >= least && value > above && value <= most && value < Infinity);
+}
+
+/** What an option must be, for messages. */
+function wanted({ number, words = [], whole, truth, call }: Row): string {
+  if (truth) return "true or false";
+  if (call) return "a function";
+  if (whole) return `an integer from ${whole[0]} to ${whole[1]}`;
+  const said = words.map((word) => JSON.stringify(word));
+  if (number) {
+    const { least, above, most } = number;
+    const from = least !== undefined ? `, at least ${least}` : above !== undefined ? `, above ${above}` : "";
+    const range = `${from}${most === undefined ? "" : ` and at most ${most}`}`;
+    said.unshift(range === "" ? "a number" : `a finite number${range}`);
+  }
+  const last = said.pop()!;
+  return said.length === 0 ? last : `${said.join(", ")} or ${last}`;
+}
+
+/** Refuses an option or method that works only in three dimensions. The message is the crate's. */
+export function requireSpace(what: string, dimension: number): void {
+  if (dimension !== 3) {
+    throw new HprError("option", `${what} needs a cloud of dimension 3, not ${dimension}`);
+  }
+}
+
+/** Refuses an option or method that needs at most three dimensions. The message is the crate's. */
+export function requireLow(what: string, dimension: number): void {
+  if (dimension > 3) {
+    requireSpace(what, dimension);
+  }
+}
+
 /** An option that is an integer in a range, if it was given. */
 export function integer(given: Record<string, unknown>, name: string, least: number, most: number): number | undefined {
   const value = given[name];

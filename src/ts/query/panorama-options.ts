@@ -1,20 +1,9 @@
 import { HprError } from "../base/errors.js";
-import { integer } from "./options.js";
-import { readViewpoint, type Viewpoint } from "./positions.js";
-import { VIEW_OPTIONS, type VisibilityOptions } from "./view-options.js";
+import type { PANORAMA_ROWS, PanoramaOptions } from "./option-rows.js";
+import type { Checked } from "./options.js";
+import { readViewpoint } from "./positions.js";
 
-/** The size of a panorama. `scores` is refused. */
-export interface PanoramaOptions extends VisibilityOptions {
-  /** The number of columns: an integer from 1 to 16,384. */
-  width: number;
-  /** The number of rows: an integer from 1 to 16,384. */
-  height: number;
-  /**
-   * x, y, z of the direction above the first row, of any length but 0. Column 0 looks along the part of +x
-   * that is perpendicular to it, or of +y where +x is parallel to it. Default `[0, 0, 1]`.
-   */
-  up?: Viewpoint | undefined;
-}
+export type { PanoramaOptions };
 
 /** What stands in each direction around a viewpoint, row after row from up to down. */
 export interface Panorama {
@@ -28,25 +17,18 @@ export interface Panorama {
   solidAngle: number;
 }
 
-export const PANORAMA_OPTIONS = [...VIEW_OPTIONS, "width", "height", "up"] as const;
-
-const MOST = 16_384;
-
 export interface PanoramaSize {
   width: number;
   height: number;
   up: number[];
 }
 
-export function panoramaSize(given: Record<string, unknown>): PanoramaSize {
-  const { up = [0, 0, 1] } = given;
-  return { width: size(given, "width"), height: size(given, "height"), up: readViewpoint(up, 3, "direction") };
-}
-
-function size(given: Record<string, unknown>, name: string): number {
-  const size = integer(given, name, 1, MOST);
-  if (size === undefined) {
-    throw new HprError("option", `${name} must be given: an integer from 1 to ${MOST}`);
+export function panoramaSize(given: Checked<PanoramaOptions, typeof PANORAMA_ROWS>): PanoramaSize {
+  const { width, height, up = [0, 0, 1] } = given;
+  for (const [name, size] of Object.entries({ width, height }) as [string, number | undefined][]) {
+    if (size === undefined) {
+      throw new HprError("option", `${name} must be given: an integer from 1 to 16384`);
+    }
   }
-  return size;
+  return { width, height, up: readViewpoint(up, 3, "direction") };
 }

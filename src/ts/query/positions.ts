@@ -99,9 +99,12 @@ export function readViewpoint(given: unknown, dimension: number, name = "viewpoi
   return dimension === 2 ? [...coordinates, 0] : coordinates;
 }
 
-/** An object `{ x, y, z }`, such as a vector of three.js, as a list. */
+/** Any object with x, y and z, such as a vector of three.js, as a list. Its class may have a method `length`. */
 function listed(given: unknown, dimension: number): unknown {
-  if (dimension > 3 || typeof given !== "object" || given === null || !("x" in given) || "length" in given) {
+  if (dimension > 3 || typeof given !== "object" || given === null || ArrayBuffer.isView(given)) {
+    return given;
+  }
+  if (Array.isArray(given) || !("x" in given) || lengthOf(given) !== undefined) {
     return given;
   }
   const { x, y, z } = given as { x: unknown; y?: unknown; z?: unknown };

@@ -3,47 +3,26 @@ import { allocating } from "../base/memory.js";
 import type { Stations } from "./calibration.js";
 import { readCamera } from "./camera.js";
 import { mapNumbers, type MapNumbers } from "./map-options.js";
+import type {
+  IlluminationOptions,
+  LIGHT_ROWS,
+  MAP_ROWS,
+  MESH_ROWS,
+  PANORAMA_ROWS,
+  PanoramaOptions,
+  ReconstructionOptions,
+  VIEW_ROWS,
+  VisibilityMapOptions,
+  VisibilityOptions,
+} from "./option-rows.js";
+import { type Checked, type CloudSettings, requireLow, requireSpace } from "./options.js";
 import { type PanoramaSize, panoramaSize } from "./panorama-options.js";
-import { type CloudSettings, integer, number } from "./options.js";
 import { packed, readPositions, readViewpoint, readViewpoints } from "./positions.js";
 import { isCameraSeat, readSeats, type Seat } from "./seats.js";
 import { plainView, typedArrayType } from "../base/typed-arrays.js";
-import {
-  refuseScores,
-  requireLow,
-  requireSpace,
-  ruleSettings,
-  VIEW_OPTIONS,
-  type ViewSettings,
-  viewSettings,
-  type VisibilityOptions,
-} from "./view-options.js";
+import { refuseScores, ruleSettings, type ViewSettings, viewSettings } from "./view-options.js";
 
-/** How a mesh is made from one view. */
-export interface ReconstructionOptions extends VisibilityOptions {
-  /**
-   * The longest edge that a triangle may have, in the cloud's units. Edges are measured between the
-   * given positions of the points. `Infinity` keeps all triangles. Default: 5 times the cloud's
-   * spacing.
-   */
-  maxEdge?: number | undefined;
-}
-
-/** How light is spread. */
-export interface IlluminationOptions extends VisibilityOptions {
-  /**
-   * A mesh with the points as its vertices: three indices for each triangle. Shadows are softened
-   * along its edges. Without a mesh, they are softened over the 6 nearest points.
-   */
-  triangles?: Uint32Array | undefined;
-  /**
-   * How many times the light is softened: an integer from 0 to 1000. Each time, every point takes
-   * the mean of itself and its neighbors. Default 1.
-   */
-  smoothing?: number | undefined;
-  /** The brightness that no shadow takes away, from 0 to 1. Default 0. */
-  ambient?: number | undefined;
-}
+export type { IlluminationOptions, ReconstructionOptions };
 
 /**
  * The questions to a cloud, by kind. Their arguments are read, copied and checked for type. Their
@@ -70,6 +49,7 @@ export interface Questions {
   autoRadius: { viewpoint: number[]; settings: ViewSettings };
   noise: object;
   calibrate: Stations & { settings: ViewSettings };
+  surface: object;
   reconstruct: { viewpoint: number[]; settings: ViewSettings; maxEdge: number | undefined };
   illuminate: {
     lights: Float64Array<ArrayBuffer>;
@@ -84,20 +64,16 @@ export type QueryKind = keyof Questions;
 /** `argument`: which of several viewpoints or cameras it is about, for errors. */
 export type Query<K extends QueryKind = QueryKind> = { [P in K]: { kind: P; argument?: string } & Questions[P] }[K];
 
-// In the functions below, `given` holds options whose names were checked against these lists. A worker
-// accepts more names.
+// In the functions below, `given` holds options that their rows have checked.
 
-export const RECONSTRUCTION_OPTIONS = [...VIEW_OPTIONS, "maxEdge"] as const;
-export const ILLUMINATION_OPTIONS = [...VIEW_OPTIONS, "triangles", "smoothing", "ambient"] as const;
+type View = Checked<VisibilityOptions, typeof VIEW_ROWS>;
 
-type GivenOptions = Record<string, unknown>;
-
-export function viewQuery(dimension: number, viewpoint: unknown, given: GivenOptions): Query<"visibleFrom"> {
+export function viewQuery(dimension: number, viewpoint: unknown, given: View): Query<"visibleFrom"> {
   const position = readViewpoint(viewpoint, dimension);
   return { kind: "visibleFrom", viewpoint: position, settings: viewSettings(given, dimension) };
 }
 
-export function cameraQuery(dimension: number, camera: unknown, given: GivenOptions): Query<"visibleFromCamera"> {
+export function cameraQuery(dimension: number, camera: unknown, given: View): Query<"visibleFromCamera"> {
   requireSpace("visibleFromCamera", dimension);
   const numbers = readCamera(camera);
   return { kind: "visibleFromCamera", camera: numbers, settings: viewSettings(given, dimension) };
@@ -107,7 +83,7 @@ export function seesQuery(
   { dimension, stride }: CloudSettings,
   viewpoint: unknown,
   positions: unknown,
-  given: GivenOptions,
+  given: View,
 ): Query<"sees"> {
   requireLow("sees", dimension);
   const place = readViewpoint(viewpoint, dimension);
@@ -117,23 +93,27 @@ export function seesQuery(
   return { kind: "sees", viewpoint: place, positions: own, settings };
 }
 
-export function mapQuery(dimension: number, viewpoint: unknown, given: GivenOptions): Query<"visibilityMap"> {
+export function mapQuery(
+  dimension: number,
+  viewpoint: unknown,
+  given: Checked<VisibilityMapOptions, typeof MAP_ROWS>,
+): Query<"visibilityMap"> {
   requireSpace("visibilityMap", dimension);
   const place = readViewpoint(viewpoint, 3) as [number, number, number];
   return { kind: "visibilityMap", viewpoint: place, settings: viewSettings(given, dimension), ...mapNumbers(given) };
 }
 
-export function panoramaQuery(dimension: number, viewpoint: unknown, given: GivenOptions): Query<"panorama"> {
+export function panoramaQuery(
+  dimension: number,
+  viewpoint: unknown,
+  given: Checked<PanoramaOptions, typeof PANORAMA_ROWS>,
+): Query<"panorama"> {
   requireSpace("panorama", dimension);
   const place = readViewpoint(viewpoint, 3);
   return { kind: "panorama", viewpoint: place, settings: viewSettings(given, dimension), ...panoramaSize(given) };
 }
 
-export function directionQuery(
-  dimension: number,
-  direction: unknown,
-  given: GivenOptions,
-): Query<"visibleFromDirection"> {
+export function directionQuery(dimension: number, direction: unknown, given: View): Query<"visibleFromDirection"> {
   requireSpace("visibleFromDirection", dimension);
   const ahead = readViewpoint(direction, 3, "direction");
   return { kind: "visibleFromDirection", direction: ahead, settings: viewSettings(given, dimension) };
@@ -143,7 +123,7 @@ export function directionQuery(
 export function severalQuery(
   dimension: number,
   viewpoints: unknown,
-  given: GivenOptions,
+  given: View,
   least?: { k: unknown },
 ): Query<"visibleFromSeveral"> | Query<"visibleFromSeats"> {
   const seats = readSeats(viewpoints, dimension, "viewpoints");
@@ -174,28 +154,32 @@ export function radiusQuery(dimension: number, viewpoint: unknown, rule: unknown
   return { kind: "autoRadius", viewpoint: readViewpoint(viewpoint, dimension), settings: ruleSettings(rule) };
 }
 
-export function reconstructionQuery(dimension: number, viewpoint: unknown, given: GivenOptions): Query<"reconstruct"> {
+export function reconstructionQuery(
+  dimension: number,
+  viewpoint: unknown,
+  given: Checked<ReconstructionOptions, typeof MESH_ROWS>,
+): Query<"reconstruct"> {
   requireSpace("reconstruct", dimension);
   const position = readViewpoint(viewpoint, dimension);
-  const maxEdge = number(given, "maxEdge");
-  return { kind: "reconstruct", viewpoint: position, settings: viewSettings(given, dimension), maxEdge };
+  return { kind: "reconstruct", viewpoint: position, settings: viewSettings(given, dimension), maxEdge: given.maxEdge };
 }
 
-export function illuminationQuery(dimension: number, lights: unknown, given: GivenOptions): Query<"illuminate"> {
+export function illuminationQuery(
+  dimension: number,
+  lights: unknown,
+  given: Checked<IlluminationOptions, typeof LIGHT_ROWS>,
+): Query<"illuminate"> {
   requireSpace("illuminate", dimension);
   const positions = readViewpoints(lights, dimension, "lights");
   return {
     kind: "illuminate",
     lights: positions,
     settings: viewSettings(given, dimension),
-    triangles: readTriangles(given["triangles"]),
-    smoothing: integer(given, "smoothing", 0, MOST_ROUNDS) ?? 1,
-    ambient: number(given, "ambient") ?? 0,
+    triangles: readTriangles(given.triangles),
+    smoothing: given.smoothing ?? 1,
+    ambient: given.ambient ?? 0,
   };
 }
-
-/** The core's limit. */
-const MOST_ROUNDS = 1000;
 
 /** A copy of the triangles. Their indices are checked later, when the cloud is asked. */
 function readTriangles(triangles: unknown): Uint32Array<ArrayBuffer> | undefined {

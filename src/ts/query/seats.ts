@@ -1,6 +1,6 @@
 import { type Camera, type CameraNumbers, isCamera, readCamera } from "./camera.js";
 import { readEach, readViewpoint, type Viewpoint } from "./positions.js";
-import { requireSpace } from "./view-options.js";
+import { requireSpace } from "./options.js";
 
 /** From where a cloud is seen: by an eye that looks everywhere, or by a camera, which sees only what is in its image. */
 export type Seat = number[] | CameraNumbers;

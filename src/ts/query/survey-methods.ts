@@ -1,9 +1,9 @@
+import { MANY_ROWS, PLACEMENT_ROWS } from "./option-rows.js";
+import type { Rows } from "./options.js";
 import type { Placement } from "./placement.js";
 import { type SeenBy, SeenByTask } from "./seen-by.js";
 import {
-  COVERAGE_OPTIONS,
   CoverageTask,
-  PLACEMENT_OPTIONS,
   PlacementTask,
   readPlacing,
   readSurvey,
@@ -21,16 +21,16 @@ interface Answers {
 export type SurveyName = keyof Answers;
 
 interface Method<Answer> {
-  names: readonly string[];
+  rows: Rows;
   task: (survey: Survey, given: Record<string, unknown>, progress?: (fraction: number) => void) => SurveyTask<Answer>;
 }
 
 /** The questions about many views, for `PointCloud` and for a cloud in a worker. */
 export const SURVEYS: { [Name in SurveyName]: Method<Answers[Name]> } = {
-  coverage: { names: COVERAGE_OPTIONS, task: (survey, _, progress) => new CoverageTask(survey, progress) },
-  seenBy: { names: COVERAGE_OPTIONS, task: (survey, _, progress) => new SeenByTask(survey, progress) },
+  coverage: { rows: MANY_ROWS, task: (survey, _, progress) => new CoverageTask(survey, progress) },
+  seenBy: { rows: MANY_ROWS, task: (survey, _, progress) => new SeenByTask(survey, progress) },
   placeViewpoints: {
-    names: PLACEMENT_OPTIONS,
+    rows: PLACEMENT_ROWS,
     task: (survey, given, progress) => new PlacementTask(survey, readPlacing(given), progress),
   },
 };
@@ -40,11 +40,11 @@ export function surveyQuestion<Name extends SurveyName>(
   viewpoints: unknown,
   options: unknown,
 ): SurveyQuestion<Answers[Name]> {
-  const { names, task } = SURVEYS[name];
+  const { rows, task } = SURVEYS[name];
   return [
     name,
     options,
-    names,
+    rows,
     (dimension, given, progress) => task(readSurvey(dimension, viewpoints, given, name), given, progress),
   ];
 }

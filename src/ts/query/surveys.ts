@@ -3,37 +3,14 @@ import { describe, HprError } from "../base/errors.js";
 import { allocating } from "../base/memory.js";
 import { isNumberArray, plainNumbers } from "../base/typed-arrays.js";
 import { INVERTED } from "./camera.js";
-import { integer, number } from "./options.js";
+import type { CoverageOptions, PLACEMENT_ROWS, PlacementOptions } from "./option-rows.js";
+import { type Checked, requireSpace, type Rows } from "./options.js";
 import { GreedyChoice, type Placement, type PlacementSettings } from "./placement.js";
 import type { Query } from "./queries.js";
 import { isCameraSeat, readCameras, readSeats, type Seat } from "./seats.js";
-import {
-  refuseScores,
-  requireSpace,
-  VIEW_OPTIONS,
-  type ViewSettings,
-  viewSettings,
-  type VisibilityOptions,
-} from "./view-options.js";
+import { refuseScores, type ViewSettings, viewSettings } from "./view-options.js";
 
-/** How points are counted from many viewpoints. */
-export interface CoverageOptions extends VisibilityOptions {
-  /**
-   * Is told the share of the viewpoints that is done: growing numbers, 1 at the end. It must not change the cloud
-   * (`option`). In a worker, a change waits for the answer.
-   */
-  onProgress?: ((fraction: number) => void) | undefined;
-}
-
-/** How viewpoints are chosen among candidates. */
-export interface PlacementOptions extends CoverageOptions {
-  /** The largest number of viewpoints to choose: an integer of at least 1. Default: no limit. */
-  count?: number | undefined;
-  /** The choice ends when so much of the weight is seen that some candidate sees: above 0, at most 1. Default 1. */
-  share?: number | undefined;
-  /** How much each index counts: one number of at least 0 for each index. Default 1 each. */
-  weights?: ArrayLike<number> | undefined;
-}
+export type { CoverageOptions, PlacementOptions };
 
 /** Many viewpoints of one cloud, each asked with the same settings. */
 export interface Survey {
@@ -45,9 +22,6 @@ export interface Survey {
 
 /** The question of one view of a survey. */
 type View = Query<"visibleFrom"> | Query<"visibleFromCamera">;
-
-export const COVERAGE_OPTIONS = [...VIEW_OPTIONS, "onProgress"] as const;
-export const PLACEMENT_OPTIONS = [...COVERAGE_OPTIONS, "count", "share", "weights"] as const;
 
 type GivenOptions = Record<string, unknown>;
 
@@ -68,16 +42,12 @@ export function readSurvey(
   return { seats, settings, towards: method === "seenBy" };
 }
 
-export function readPlacing(given: GivenOptions): PlacementSettings {
-  const share = number(given, "share") ?? 1;
-  if (!(share > 0 && share <= 1)) {
-    throw new HprError("option", `share must be above 0 and at most 1, got ${describe(share)}`);
-  }
-  return {
-    count: integer(given, "count", 1, Number.MAX_SAFE_INTEGER) ?? Infinity,
-    share,
-    weights: given["weights"] === undefined ? undefined : readWeights(given["weights"]),
-  };
+export function readPlacing({
+  count = Infinity,
+  share = 1,
+  weights,
+}: Checked<PlacementOptions, typeof PLACEMENT_ROWS>): PlacementSettings {
+  return { count, share, weights: weights === undefined ? undefined : readWeights(weights) };
 }
 
 /** The numbers are copied. Their number is checked when the length of the cloud is known. */
@@ -109,11 +79,11 @@ export function viewFrom(seats: readonly Seat[], at: number, settings: ViewSetti
     : { kind: "visibleFrom", viewpoint: seat, settings, argument: `viewpoint ${at}` };
 }
 
-/** The question of a survey: its name, the options with their known names, and how they become a task. */
+/** The question of a survey: its name, the options with their rows, and how they become a task. */
 export type SurveyQuestion<Result> = [
   method: string,
   options: unknown,
-  names: readonly string[],
+  rows: Rows,
   read: (dimension: number, given: GivenOptions, progress?: (fraction: number) => void) => SurveyTask<Result>,
 ];
 

@@ -1,30 +1,17 @@
 import type { Found, Photographed } from "./answers.js";
 import type { CameraNumbers } from "./camera.js";
 import { type Image, readImages, type TransferImage, valueAt, valueBetween } from "./images.js";
-import { type Merge, merged, MERGES } from "./merge-values.js";
-import { word } from "./options.js";
+import { type Merge, merged } from "./merge-values.js";
+import type { TRANSFER_ROWS, TransferOptions } from "./option-rows.js";
+import { type Checked, requireSpace } from "./options.js";
 import { MAX_LENGTH } from "./positions.js";
 import { readCameras } from "./seats.js";
-import { COVERAGE_OPTIONS, type CoverageOptions, SurveyTask } from "./surveys.js";
-import { refuseScores, requireSpace, viewSettings } from "./view-options.js";
+import { SurveyTask } from "./surveys.js";
+import { refuseScores, viewSettings } from "./view-options.js";
 import { HprError } from "../base/errors.js";
 import { allocating } from "../base/memory.js";
 
-export interface TransferOptions extends CoverageOptions {
-  /**
-   * How the values of several cameras become one: the weighted `"mean"` (default) or `"median"` of each
-   * channel, the pixel with the most weight among equal ones (`"vote"`, for labels), or that of the camera with
-   * the highest weight (`"best"`).
-   */
-  merge?: Merge | undefined;
-  /**
-   * How much a camera counts: 1 ÷ the square of the depth, the cosine of the angle between the ray and the optical
-   * axis, or the score of the view (needs looks). Default: all the same; for `"best"`, `"distance"`.
-   */
-  weights?: "distance" | "angle" | "score" | undefined;
-  /** The nearest pixel (default), or `"bilinear"`: between the four pixels around; not with `"vote"`. */
-  sampling?: "nearest" | "bilinear" | undefined;
-}
+export type { TransferOptions };
 
 /** What images say about the points of a cloud. */
 export interface Transferred {
@@ -36,10 +23,6 @@ export interface Transferred {
   /** What is probably wrong with a camera; see `Visibility.note`. */
   note?: string;
 }
-
-export const WEIGHTS = ["distance", "angle", "score"] as const;
-const SAMPLINGS = ["nearest", "bilinear"] as const;
-export const TRANSFER_OPTIONS = [...COVERAGE_OPTIONS, "merge", "weights", "sampling"] as const;
 
 /** What one camera sees: the points, where they are in the image, and how much they count. */
 interface Entries {
@@ -63,16 +46,15 @@ export class TransferTask extends SurveyTask<Transferred> {
     dimension: number,
     cameras: unknown,
     images: readonly TransferImage[],
-    given: Record<string, unknown>,
+    given: Checked<TransferOptions, typeof TRANSFER_ROWS>,
     progress?: (fraction: number) => void,
   ) {
-    const merge = word(given, "merge", MERGES) ?? "mean";
-    const sampling = word(given, "sampling", SAMPLINGS) ?? "nearest";
-    const weigh = word(given, "weights", WEIGHTS) ?? (merge === "best" ? "distance" : undefined);
+    const { merge = "mean", sampling = "nearest" } = given;
+    const weigh = given.weights ?? (merge === "best" ? "distance" : undefined);
     if (merge === "vote" && sampling === "bilinear") {
       throw new HprError("option", "sampling bilinear cannot be combined with merge vote");
     }
-    const isChosen = ["looks", "radius", "exponent", "inversion"].some((name) => given[name] !== undefined);
+    const isChosen = (["looks", "radius", "exponent", "inversion"] as const).some((name) => given[name] !== undefined);
     requireSpace("transfer", dimension);
     refuseScores(given, "transfer");
     const seats = readCameras(cameras);

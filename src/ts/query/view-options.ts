@@ -1,82 +1,10 @@
 import { describe, HprError } from "../base/errors.js";
-import { entriesOf, flag, integer, number } from "./options.js";
-import { ALL_POINTS, type Within, type WithinSettings, withinSettings } from "./within.js";
+import { VIEW_ROWS, type VisibilityOptions } from "./option-rows.js";
+import type { Inversion, RadiusRule, ResolvedInversion } from "./option-types.js";
+import { type Checked, checkRows, entriesOf } from "./options.js";
+import { ALL_POINTS, type WithinSettings, withinSettings } from "./within.js";
 
-/** How the radius R is chosen if it is not given. */
-export type RadiusRule = "auto" | "opposite";
-
-/**
- * How points are flipped (paper, §3). A point at distance d from the viewpoint moves to the distance
- *
- * - 2R − d with `"spherical"`;
- * - d·(d/S)^−γ with `{ power: γ }`, where 1 < γ ≤ 16. S is `radius` if it is given, otherwise the
- *   farthest distance. S affects only the rounding;
- * - exp(c/d) with `{ exponential: c }`, where c is positive and in the cloud's units. With `"auto"`,
- *   c is 0.07 of the cloud's spacing.
- */
-export type Inversion = "spherical" | { power: number } | { exponential: number | "auto" };
-
-/**
- * The inversion of an answer, with numbers only. With `looks`, it holds the c of each look.
- * This last form is not accepted as an option: use the option `looks` for it.
- */
-export type ResolvedInversion =
-  | "spherical"
-  | { readonly power: number }
-  | { readonly exponential: number }
-  // From tight to loose.
-  | { readonly looks: readonly number[] };
-
-/**
- * How one view is computed. At most one of `radius` and `exponent` may be given. With an inversion by
- * `power`, `radius` may be a number, but `exponent` is not allowed. With `exponential`, neither of the
- * two is allowed. `looks` excludes `radius`, `exponent` and `inversion`.
- */
-export interface VisibilityOptions {
-  /**
-   * R, the radius of the sphere that points are flipped about (paper, §3.1, eq. 1), in the cloud's
-   * units. It is finite, and at least the distance of the farthest point. Instead of a number, this
-   * can be the rule that chooses R:
-   *
-   * - `"auto"`, the default, is R = 0.4·n^¼·r²/g, from the viewpoint, the number of points and the gaps
-   *   between them (`docs/VISIBLE.md`).
-   * - `"opposite"` is the paper's own rule (§4), which takes about 40 hulls. In perspective, its R is
-   *   mostly far too large.
-   */
-  radius?: number | RadiusRule | undefined;
-  /**
-   * R = farthest distance · 10^exponent, the paper's own parameter. It is at least 0. Large values such as 99 are
-   * legal but useless: nearly every point counts as visible then.
-   */
-  exponent?: number | undefined;
-  /** How points are flipped. Default `"spherical"`. */
-  inversion?: Inversion | ResolvedInversion | undefined;
-  /**
-   * Uses two or three looks instead of one flip. Each look is an exact hull of exp(c/d), and decides
-   * only the points that it is sure of. The scale c goes from large to small, in units of the cloud's
-   * spacing. The answer is truer around silhouettes and if the sampling is uneven, but takes about
-   * three times as long. It is no longer the operator of the paper: several points on one ray may be
-   * visible, not only the nearest, and parts cannot be merged. Needs a cloud of dimension 3.
-   */
-  looks?: 2 | 3 | undefined;
-  /**
-   * Only with `looks`: how far behind the surface before it a point may lie and still be seen, in the
-   * cloud's units; at least 0. A measured surface is as thick as its noise, and scans that were put
-   * together lie beside each other. With `"auto"`, the default, it follows from the cloud's `noise`. If
-   * the noise is the same everywhere, it is removed before the view instead. With 0, neither happens
-   * (`docs/LOOKS.md`).
-   */
-  thickness?: number | "auto" | undefined;
-  /** Only with `looks`: the answer also has `scores`, which say how sure it is. For one viewpoint only. */
-  scores?: boolean | undefined;
-  /**
-   * Only these points take part. The answer is the same as for a cloud of only these points, with that
-   * cloud's spacing and farthest distance. This choice comes before all other options. If there are
-   * several viewpoints or lights, `distance` gives each of them its own points. A direction allows no
-   * `distance`. Needs a cloud of dimension 2 or 3.
-   */
-  within?: Within | undefined;
-}
+export type { Inversion, RadiusRule, ResolvedInversion, VisibilityOptions };
 
 /** {@link VisibilityOptions}, checked for type, as the core reads them (src/wasm/options.rs). */
 export interface ViewSettings extends WithinSettings {
@@ -91,6 +19,8 @@ export interface ViewSettings extends WithinSettings {
   scores: boolean;
   /** A negative number means that it is automatic. */
   thickness: number;
+  /** The place of the word in the row of the option: 0 means that it is automatic. */
+  surface: number;
 }
 
 export const Rule = { auto: 0, opposite: 1, radius: 2, exponent: 3 } as const;
@@ -99,16 +29,22 @@ export const Kernel = { spherical: 0, power: 1, automaticExponential: 2, exponen
 /** The thickness that stands for `"auto"`. */
 const AUTOMATIC = -1;
 
-export const VIEW_OPTIONS = ["radius", "exponent", "inversion", "looks", "scores", "thickness", "within"] as const;
+export const VIEW_OPTIONS = Object.keys(VIEW_ROWS);
+
+/** The options of a view, or of a question that has more. */
+type Given = Checked<VisibilityOptions, typeof VIEW_ROWS>;
 
 /** Reads the options and checks their types. The core checks the ranges, since it knows the distances. */
-export function viewSettings(given: Record<string, unknown>, dimension: number): ViewSettings {
+export function viewSettings(given: object, dimension: number): ViewSettings {
+  checkRows(given as Record<string, unknown>, VIEW_ROWS, dimension);
+  const { looks, scores, thickness, surface = "auto", inversion, within } = given as Given;
   return {
-    ...chosenRadius(given),
-    ...(chosenLooks(given, dimension) ?? chosenInversion(given["inversion"])),
-    scores: wantsScores(given),
-    thickness: chosenThickness(given),
-    ...withinSettings(given["within"], dimension),
+    ...chosenRadius(given as Given),
+    ...(looks === undefined ? chosenInversion(inversion) : { kernel: Kernel.looks, parameter: looks }),
+    scores: scores ?? false,
+    thickness: typeof thickness === "number" ? thickness : AUTOMATIC,
+    surface: VIEW_ROWS.surface.words.indexOf(surface),
+    ...withinSettings(within, dimension),
   };
 }
 
@@ -120,6 +56,7 @@ export const NO_OPTIONS: ViewSettings = {
   parameter: 0,
   scores: false,
   thickness: AUTOMATIC,
+  surface: 0,
   ...ALL_POINTS,
 };
 
@@ -146,70 +83,11 @@ export function resolvedInversion({ kernel, parameter }: ViewSettings, scales: r
   }
 }
 
-/** Refuses an option or method that works only in three dimensions. The message is the crate's. */
-export function requireSpace(what: string, dimension: number): void {
-  if (dimension !== 3) {
-    throw new HprError("option", `${what} needs a cloud of dimension 3, not ${dimension}`);
-  }
-}
-
-export function chosenRadius(given: Record<string, unknown>): Pick<ViewSettings, "rule" | "size"> {
-  const { radius } = given;
-  const exponent = number(given, "exponent");
-  if (radius !== undefined && exponent !== undefined) {
-    throw new HprError("option", "radius and exponent exclude each other; give one of the two");
-  }
+export function chosenRadius({ radius, exponent }: Pick<Given, "radius" | "exponent">) {
   if (exponent !== undefined) {
     return { rule: Rule.exponent, size: exponent };
   }
-  if (typeof radius === "number") {
-    return { rule: Rule.radius, size: radius };
-  }
-  if (radius !== undefined && !isRule(radius)) {
-    throw new HprError("option", `radius must be a number, "auto" or "opposite", got ${describe(radius)}`);
-  }
-  return { rule: Rule[radius ?? "auto"], size: 0 };
-}
-
-/** The settings for `looks`, if the option is given. */
-function chosenLooks(
-  given: Record<string, unknown>,
-  dimension: number,
-): Pick<ViewSettings, "kernel" | "parameter"> | undefined {
-  const looks = integer(given, "looks", 2, 3);
-  if (looks === undefined) {
-    return undefined;
-  }
-  const excluded = ["radius", "exponent", "inversion"].find((name) => given[name] !== undefined);
-  if (excluded !== undefined) {
-    throw new HprError("option", `looks and ${excluded} exclude each other; give one of the two`);
-  }
-  requireSpace("looks", dimension);
-  return { kernel: Kernel.looks, parameter: looks };
-}
-
-function wantsScores(given: Record<string, unknown>): boolean {
-  const scores = flag(given, "scores");
-  if (scores && given["looks"] === undefined) {
-    throw new HprError("option", "scores can be asked for only with looks");
-  }
-  return scores;
-}
-
-function chosenThickness({ looks, thickness }: Record<string, unknown>): number {
-  if (thickness !== undefined && looks === undefined) {
-    throw new HprError("option", "thickness can be given only with looks");
-  }
-  if (thickness === undefined || thickness === "auto") {
-    return AUTOMATIC;
-  }
-  if (typeof thickness !== "number" || !(thickness >= 0 && thickness < Infinity)) {
-    throw new HprError(
-      "option",
-      `thickness must be a finite number, at least 0, or "auto", got ${describe(thickness)}`,
-    );
-  }
-  return thickness;
+  return typeof radius === "number" ? { rule: Rule.radius, size: radius } : { rule: Rule[radius ?? "auto"], size: 0 };
 }
 
 export function chosenInversion(inversion: unknown): Pick<ViewSettings, "kernel" | "parameter"> {
@@ -245,13 +123,6 @@ export function chosenInversion(inversion: unknown): Pick<ViewSettings, "kernel"
 export function refuseScores({ scores }: { scores?: unknown }, question: string): void {
   if (scores !== undefined && scores !== false) {
     throw new HprError("option", `scores cannot be combined with ${question}`);
-  }
-}
-
-/** Refuses an option or method that needs at most three dimensions. The message is the crate's. */
-export function requireLow(what: string, dimension: number): void {
-  if (dimension > 3) {
-    requireSpace(what, dimension);
   }
 }
 

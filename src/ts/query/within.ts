@@ -1,20 +1,10 @@
 import { describe, HprError } from "../base/errors.js";
 import { allocating } from "../base/memory.js";
 import { plainView, typedArrayType } from "../base/typed-arrays.js";
-import { entriesOf, number } from "./options.js";
+import { entriesOf, number, requireLow } from "./options.js";
+import type { Within } from "./option-types.js";
 
-/**
- * Which points take part in a view. A point must meet all of the given conditions. The other points
- * are not visible and hide nothing.
- */
-export interface Within {
-  /** The points at most this far from the viewpoint, in the cloud's units. At least 0. */
-  distance?: number | undefined;
-  /** The points in this box, its faces included: `[min, max]`, each with as many numbers as a point. */
-  box?: readonly [min: ArrayLike<number>, max: ArrayLike<number>] | undefined;
-  /** The points whose byte is not 0. There is one byte for each index of the cloud. */
-  mask?: Uint8Array | undefined;
-}
+export type { Within };
 
 /** {@link Within}, checked for type, as the core reads it. */
 export interface WithinSettings {
@@ -30,9 +20,7 @@ export function withinSettings(within: unknown, dimension: number): WithinSettin
   if (within === undefined) {
     return ALL_POINTS;
   }
-  if (dimension > 3) {
-    throw new HprError("option", `within needs a cloud of dimension 3, not ${dimension}`);
-  }
+  requireLow("within", dimension);
   const given = entriesOf("within", within, ["distance", "box", "mask"]);
   const distance = number(given, "distance");
   const { box, mask } = given;

@@ -1,5 +1,5 @@
 import { asError, HprError } from "../base/errors.js";
-import { abortError, BY_SIGNAL, untilAborted, whenAborted } from "../worker/abort.js";
+import { reasonOf, untilAborted, whenAborted } from "../worker/abort.js";
 
 /** The part of `fetch` that is used. */
 export type Fetch = (url: string, init?: RequestInit) => Promise<Response>;
@@ -89,7 +89,7 @@ async function attempt(network: Network, url: string, asked: Asked, signal?: Abo
     return { response, body: new Uint8Array(0) };
   } catch (error) {
     if (signal?.aborted) {
-      throw abortError(BY_SIGNAL);
+      throw reasonOf(signal);
     }
     if (timer.isLate) {
       const why = `no byte came for ${network.timeout} ms (see the option timeout)`;

@@ -1,13 +1,16 @@
 import { describe, HprError } from "../base/errors.js";
 
-export const BY_SIGNAL = "aborted by its signal";
+/** What rejects a promise when its signal aborts: what `abort(reason)` was given, or an `AbortError`. */
+export function reasonOf(signal: AbortSignal): unknown {
+  return signal.reason ?? abortError("aborted by its signal");
+}
 
 /** The error that rejects a promise when its request was given up. */
 export function abortError(why: string): DOMException {
   return new DOMException(why, "AbortError");
 }
 
-/** The outcome of the promise. If the signal aborts earlier, an `AbortError` rejects it. */
+/** The outcome of the promise. If the signal aborts earlier, its reason rejects it. */
 export async function untilAborted<T>(signal: AbortSignal | undefined, promise: Promise<T>): Promise<T> {
   if (signal === undefined) {
     return promise;
@@ -17,7 +20,7 @@ export async function untilAborted<T>(signal: AbortSignal | undefined, promise: 
   let forget = () => {};
   const aborted = new Promise<never>((_, reject) => {
     forget = whenAborted(signal, () => {
-      reject(abortError(BY_SIGNAL));
+      reject(reasonOf(signal));
     });
   });
   try {

@@ -12,6 +12,7 @@ import {
   type CloudSize,
   flag,
   givenOptions,
+  readOptions,
   integer,
   pick,
   type PointCloudOptions,
@@ -21,11 +22,12 @@ import { isFloatArray, type Positions, readIndices, readPositions, type Viewpoin
 import { type Calibration, calibrationQuery, type Station } from "../query/calibration.js";
 import { type SurveyName, surveyQuestion, SURVEYS } from "../query/survey-methods.js";
 import { surveyed, type SurveyQuestion } from "../query/surveys.js";
+import type { SurfaceKind } from "../query/option-types.js";
 import type { Panorama, PanoramaOptions } from "../query/panorama-options.js";
 import type { RadiusRule, VisibilityOptions } from "../query/view-options.js";
 import type { PointCloud } from "../cloud/cloud.js";
 import { METHODS, type MethodName, readQuestion } from "../cloud/methods.js";
-import { abortError, BY_SIGNAL, readSignal, untilAborted } from "./abort.js";
+import { abortError, readSignal, reasonOf, untilAborted } from "./abort.js";
 import { type Progress, readProgress } from "./progress.js";
 import { RequestQueue } from "./request-queue.js";
 import { ViewStream, type ViewStreamOptions } from "./view-stream.js";
@@ -54,7 +56,7 @@ export interface WorkerPointCloudOptions extends PointCloudOptions {
    */
   shared?: boolean | undefined;
   /**
-   * Gives the creation up, with an `AbortError`, if the signal aborts before the cloud is ready.
+   * Gives the creation up, with its reason, if the signal aborts before the cloud is ready.
    */
   signal?: AbortSignal | undefined;
   /**
@@ -73,7 +75,7 @@ export interface RequestOptions {
    * is being computed is finished. Default false.
    */
   latest?: boolean | undefined;
-  /** Rejects with an `AbortError` if the signal aborts before the answer arrives. */
+  /** Rejects with the signal's reason (an `AbortError` without one) if it aborts before the answer arrives. */
   signal?: AbortSignal | undefined;
 }
 
@@ -182,7 +184,7 @@ export class WorkerPointCloud {
     const signal = readSignal(given["signal"]);
     const progress = readProgress(given);
     if (signal?.aborted === true) {
-      throw abortError(BY_SIGNAL);
+      throw reasonOf(signal);
     }
     const own = toOwn(positions, settings.stride, transfer);
     const queue = new RequestQueue(!transfer);
@@ -244,6 +246,15 @@ export class WorkerPointCloud {
   }
 
   /**
+   * What the survey of the points found; see `PointCloud.surface`.
+   *
+   * @throws HprError (as a rejection) the same as `PointCloud.surface`.
+   */
+  get surface(): Promise<SurfaceKind> {
+    return this.#queue.query({ kind: "surface" }, { owner: this }).then(({ surface }) => surface);
+  }
+
+  /**
    * Adds points, which take the next indices; see `PointCloud.append`. Requests made before this
    * are answered without the new points. Later requests are answered with them.
    *
@@ -283,9 +294,9 @@ export class WorkerPointCloud {
   }
 
   /** Answers all views of a task, as the options of the request say. */
-  async #survey<Result>([method, options, names, read]: SurveyQuestion<Result>): Promise<Result> {
+  async #survey<Result>([method, options, rows, read]: SurveyQuestion<Result>): Promise<Result> {
     this.#queue.requireOpen();
-    const given = givenOptions(options, names, REQUEST_OPTIONS);
+    const given = readOptions(options, rows, this.#settings.dimension, REQUEST_OPTIONS);
     const latest = flag(given, "latest") ? method : undefined;
     const signal = readSignal(given["signal"]);
     const progress = readProgress(given);

@@ -1,7 +1,7 @@
 import type { Answers } from "../query/answers.js";
 import { asError, HprError } from "../base/errors.js";
 import type { Query, QueryKind } from "../query/queries.js";
-import { abortError, BY_SIGNAL, whenAborted } from "./abort.js";
+import { abortError, reasonOf, whenAborted } from "./abort.js";
 import { isProgress, READY, type Replies, type Reply, type Request } from "./protocol.js";
 import { Team } from "./team.js";
 import { startError } from "./start-thread.js";
@@ -22,7 +22,7 @@ interface AskOptions {
 interface Pending extends AskOptions {
   request: Request;
   resolve: (value: unknown) => void;
-  reject: (reason: Error) => void;
+  reject: (reason: unknown) => void;
   /** Stops the waiting for an abort. */
   forget?: () => void;
   /** Whether this was asked before, of workers that hung. */
@@ -79,7 +79,7 @@ export class RequestQueue implements GuestEvents {
       }
       // This request never waits, so it overtakes no other.
       if (options.signal?.aborted === true) {
-        reject(abortError(BY_SIGNAL));
+        reject(reasonOf(options.signal));
         return;
       }
       if (options.latest !== undefined) {
@@ -168,7 +168,7 @@ export class RequestQueue implements GuestEvents {
     this.#running = undefined;
     request?.forget?.();
     if ("abandoned" in reply) {
-      request?.reject(abortError(BY_SIGNAL));
+      request?.reject(request.signal ? reasonOf(request.signal) : abortError("the worker gave the request up"));
       return;
     }
     if ("value" in reply) {

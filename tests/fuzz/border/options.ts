@@ -34,6 +34,22 @@ const wrong = (code: string, key: string, make: () => unknown, is?: Field["is"])
   sure: true,
 });
 
+const WRAPPINGS: [name: string, wrap: (values: Meaning) => unknown][] = [
+  ["an object", (values) => values],
+  ["a frozen object", (values) => Object.freeze({ ...values })],
+  ["an object without a prototype", (values) => Object.assign(Object.create(null) as object, values)],
+  ["an heir", (values) => Object.create(values) as unknown],
+  ["a proxy", (values) => new Proxy(values, {})],
+  [
+    "getters",
+    (values) =>
+      Object.defineProperties(
+        {},
+        Object.fromEntries(Object.entries(values).map(([key, value]) => [key, { get: () => value, enumerable: true }])),
+      ),
+  ],
+];
+
 const junkFor = (key: string, fits: (value: unknown) => boolean): Field[] =>
   JUNK.filter(([, make]) => make() !== undefined && !fits(make())).map(([, make]) => wrong("option", key, make));
 const isNumber = (value: unknown) => typeof value === "number";
@@ -155,22 +171,6 @@ function clash(fields: Field[]): string[] {
   const other = (has("exponent") || has("rule")) && (has("power") || has("exponential"));
   return sized || other || (has("radius") && has("exponential")) ? ["option"] : [];
 }
-
-const WRAPPINGS: [name: string, wrap: (values: Meaning) => unknown][] = [
-  ["an object", (values) => values],
-  ["a frozen object", (values) => Object.freeze({ ...values })],
-  ["an object without a prototype", (values) => Object.assign(Object.create(null) as object, values)],
-  ["an heir", (values) => Object.create(values) as unknown],
-  ["a proxy", (values) => new Proxy(values, {})],
-  [
-    "getters",
-    (values) =>
-      Object.defineProperties(
-        {},
-        Object.fromEntries(Object.entries(values).map(([key, value]) => [key, { get: () => value, enumerable: true }])),
-      ),
-  ],
-];
 
 export interface CloudShape {
   dimension: number;
