@@ -11,6 +11,7 @@ pub(crate) mod illumination;
 pub(crate) mod looks;
 pub(crate) mod memory;
 pub(crate) mod merge;
+pub(crate) mod observer;
 pub(crate) mod panorama;
 pub(crate) mod part;
 pub(crate) mod placement;

@@ -4,17 +4,23 @@
 //! OUTPUT   for each direction a distance and a point, or the sky; how much of the sphere is surface.
 //! SUMMARY  The visible points are flipped once more, so far that all of them are vertices. The outer
 //!          faces then are the Delaunay triangles of their directions. A triangle is surface if its
-//!          corners are as near to each other as samples are (`sky`). The ray of each pixel walks
+//!          corners are as near to each other as samples are (`surface`). The ray of each pixel walks
 //!          to its triangle. The areas are those of the triangles, not of pixels, unless two corners of a triangle
-//!          are opposite to each other.
+//!          are opposite to each other (`areas`).
 
-mod sky;
+mod areas;
+mod options;
+mod surface;
+
+use alloc::vec::Vec;
+
+use glam::DVec3;
 
 use crate::answers::memory::ViewMemory;
 use crate::base::allocation::filled;
 use crate::base::beat;
-use crate::base::error::{Error, in_range};
-use crate::base::real::{larger, power_of_two_below, sine_cosine, smaller, square_root};
+use crate::base::error::Error;
+use crate::base::real::{power_of_two_below, smaller};
 use crate::cloud::point_cloud::PointCloud;
 use crate::cloud::sequence::Sequence;
 use crate::flip::inversion::Flip;
@@ -22,11 +28,9 @@ use crate::flip::kernel::Kernel;
 use crate::hull::{self, OuterFaces};
 use crate::view::options::Options;
 use crate::view::refusals::QuestionKind;
-use crate::view::resolved::normalized;
-use alloc::vec::Vec;
-use core::f64::consts::{PI, TAU};
-use glam::DVec3;
-use sky::Surface;
+use options::Image;
+pub use options::PanoramaOptions;
+use surface::Surface;
 
 /// R in farthest distances: a point hides another one only if they are within about 10⁻⁴ radians.
 const FLAT: f64 = 1e8;
@@ -161,166 +165,5 @@ impl Panorama {
         self.solid_angle = areas.solid_angle();
         self.sky_view_factor = areas.sky_view_factor();
         Ok(())
-    }
-}
-
-/// The largest width and height.
-const MOST: f64 = 16_384.0;
-/// +x is parallel to up if the sine of their angle is at most this.
-const PARALLEL: f64 = 1e-9;
-
-/// The size of a [`Panorama`](crate::Panorama), and where it is up.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PanoramaOptions {
-    /// The number of columns, 1 to 16384.
-    pub width: usize,
-    /// The number of rows, 1 to 16384.
-    pub height: usize,
-    /// The direction above the first row, of any length but 0. Column 0 looks along the part of +x that is
-    /// perpendicular to it, or of +y where +x is parallel to it.
-    pub up: [f64; 3],
-}
-
-impl Default for PanoramaOptions {
-    fn default() -> Self {
-        Self {
-            width: 1024,
-            height: 512,
-            up: [0.0, 0.0, 1.0],
-        }
-    }
-}
-
-impl PanoramaOptions {
-    fn image(&self) -> Result<Image, Error> {
-        let Self { width, height, up } = *self;
-        in_range("width", width as f64, 1.0, MOST)?;
-        in_range("height", height as f64, 1.0, MOST)?;
-        let up = normalized(up).ok_or(Error::Direction { direction: up })?;
-        let across = |axis: DVec3| {
-            let across = axis - up * up.dot(axis);
-            (across, square_root(across.length_squared()))
-        };
-        let (mut first, mut length) = across(DVec3::X);
-        if length <= PARALLEL {
-            (first, length) = across(DVec3::Y);
-        }
-        let first = first / length;
-        Ok(Image {
-            width,
-            height,
-            up,
-            first,
-            second: up.cross(first),
-        })
-    }
-}
-
-/// The pixels of a panorama.
-struct Image {
-    pub width: usize,
-    pub height: usize,
-    pub up: DVec3,
-    /// Where column 0 looks.
-    first: DVec3,
-    /// Where the column at a quarter of the width looks.
-    second: DVec3,
-}
-
-impl Image {
-    pub fn pixels(&self) -> usize {
-        self.width * self.height
-    }
-
-    /// The cosine from up at the upper edge of a row.
-    pub fn cosine(&self, row: usize) -> f64 {
-        sine_cosine(PI * row as f64 / self.height as f64).1
-    }
-
-    /// The direction of a pixel's middle, of length 1.
-    pub fn direction(&self, row: usize, column: usize) -> DVec3 {
-        let (across, along) = sine_cosine(PI * (row as f64 + 0.5) / self.height as f64);
-        let (sin, cos) = sine_cosine(TAU * column as f64 / self.width as f64);
-        (self.first * cos + self.second * sin) * across + self.up * along
-    }
-}
-
-/// The areas of triangles between unit vectors.
-#[derive(Default)]
-pub(super) struct Areas {
-    solid_angle: f64,
-    /// Of the parts above the horizon, on the ground under a sphere of radius 1.
-    projected: f64,
-}
-
-/// A triangle is uncertain where both the sine and the cosine of half its area, times the same number, are below this:
-/// where two corners are opposite to each other, any great circle passes through both. So is half a sphere.
-const CERTAIN: f64 = 1e-6;
-
-impl Areas {
-    /// Adds the area of a triangle. Returns false where rounded corners do not tell it.
-    pub(super) fn add(&mut self, corners: [DVec3; 3], up: DVec3) -> bool {
-        // Van Oosterom and Strackee 1983.
-        let [a, b, c] = corners;
-        let sine = a.dot(b.cross(c)).abs();
-        let cosine = 1.0 + a.dot(b) + b.dot(c) + c.dot(a);
-        if larger(sine, cosine) < CERTAIN {
-            return false;
-        }
-        self.solid_angle += 2.0 * libm::atan2(sine, cosine);
-        self.projected += projected(corners, up);
-        true
-    }
-
-    /// Adds a pixel of an image whose rows are between these cosines from up, the larger one first.
-    pub(super) fn add_pixel(&mut self, [high, low]: [f64; 2], columns: usize) {
-        let across = TAU / columns as f64;
-        self.solid_angle += across * (high - low);
-        let (high, low) = (larger(high, 0.0), larger(low, 0.0));
-        self.projected += 0.5 * across * (high * high - low * low);
-    }
-
-    /// How much of the sphere it is, in steradians.
-    pub(super) fn solid_angle(&self) -> f64 {
-        smaller(self.solid_angle, 4.0 * PI)
-    }
-
-    /// The share of the sky in the upper half of the sphere, weighted by the cosine from up.
-    pub(super) fn sky_view_factor(&self) -> f64 {
-        smaller(larger(1.0 - self.projected / PI, 0.0), 1.0)
-    }
-}
-
-/// The area of the part above the horizon, projected along `up` to the ground (Lambert 1760): half the
-/// sum, over the edges, of the angle times the height of the edge's normal.
-fn projected(corners: [DVec3; 3], up: DVec3) -> f64 {
-    // At most one edge goes down through the horizon, and one up.
-    let (mut down, mut upwards) = (None, None);
-    let mut sum = 0.0;
-    for (edge, &tail) in corners.iter().enumerate() {
-        let head = corners[(edge + 1) % 3];
-        let [from, to] = [tail, head].map(|end| end.dot(up));
-        let crossing = || tail * (to / (to - from)) - head * (from / (to - from));
-        sum += match (from >= 0.0, to >= 0.0) {
-            (true, true) => edge_height(tail, head, up),
-            (true, false) => edge_height(tail, *down.insert(crossing()), up),
-            (false, true) => edge_height(*upwards.insert(crossing()), head, up),
-            (false, false) => 0.0,
-        };
-    }
-    if let (Some(down), Some(upwards)) = (down, upwards) {
-        sum += edge_height(down, upwards, up);
-    }
-    0.5 * sum.abs()
-}
-
-/// The angle between two directions, times the height of the unit vector perpendicular to both.
-fn edge_height(tail: DVec3, head: DVec3, up: DVec3) -> f64 {
-    let normal = tail.cross(head);
-    let sine = square_root(normal.length_squared());
-    if sine > 0.0 {
-        libm::atan2(sine, tail.dot(head)) / sine * normal.dot(up)
-    } else {
-        0.0
     }
 }

@@ -7,7 +7,7 @@
 use alloc::vec::Vec;
 use glam::DVec3;
 
-use crate::answers::visibility_map::MapOptions;
+use crate::answers::visibility_map::options::MapOptions;
 use crate::base::allocation::{OutOfMemory, filled, push, with_capacity};
 use crate::base::real::{larger, sine_cosine, smaller, square_root};
 use crate::cloud::points::Points;

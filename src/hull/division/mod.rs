@@ -13,8 +13,11 @@ mod cell;
 mod cone;
 mod far;
 mod leaf_cache;
+mod sector;
 #[cfg(test)]
 mod tests;
+
+pub(crate) use self::sector::Sector;
 
 use alloc::vec::Vec;
 use glam::DVec3;
@@ -27,14 +30,6 @@ use crate::base::real::{larger, square_root};
 use crate::cloud::blocks::{BLOCK, Blocks};
 use crate::cloud::points::Points;
 use crate::hull::flipped::Flipped;
-
-/// One of several sectors that a view is divided into, one for each thread. A sector needs nothing from the
-/// others.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Sector {
-    pub number: u32,
-    pub count: u32,
-}
 
 /// How one sector sees the cloud.
 pub(crate) struct Division {

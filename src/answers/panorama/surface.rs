@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 use glam::DVec3;
 
 use crate::answers::looks::{Corners, Triangle};
-use crate::answers::panorama::Areas;
+use crate::answers::panorama::areas::Areas;
 use crate::base::allocation::{OutOfMemory, filled, push};
 use crate::base::real::square_root;
 use crate::base::sort::percentile;
