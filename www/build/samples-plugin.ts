@@ -4,7 +4,7 @@ import { dirname, join } from "node:path";
 import { gunzipSync, gzipSync } from "node:zlib";
 import { PLYLoader } from "three/addons/loaders/PLYLoader.js";
 import type { Plugin } from "vite";
-import { readPly } from "../../src/ts/formats/read-ply.js";
+import { readPly } from "../../src/ts/formats/ply.js";
 import { bytesSource } from "../../src/ts/formats/source.js";
 
 const require = createRequire(import.meta.url);

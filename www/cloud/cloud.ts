@@ -87,7 +87,7 @@ export function upVector(up: Up): [number, number, number] {
 }
 
 export type { Crs, LasSource, Unit };
-export { valueAt } from "../../src/ts/formats/column.js";
+export { valueAt } from "../../src/ts/formats/numbers.js";
 
 /** A column of the file: a number for each point, or a single number that all points share. */
 export interface Field {

@@ -3,7 +3,7 @@ import type { Sample } from "../samples/samples.ts";
 import type { Cloud, Up } from "../cloud/cloud.ts";
 import { OWN_COLORS, type Settings, USUAL_SETTINGS } from "../settings/settings.ts";
 import { colorChoices } from "../view/colors.ts";
-import { indicesByStation } from "../../src/ts/formats/stations.js";
+import { indicesByStation } from "../../src/ts/formats/cloud-file.js";
 import type { Opened } from "../view/viewer.ts";
 
 /** Says which points may be left out when a file is read. */

@@ -1,6 +1,5 @@
-import { BATCH } from "../../src/ts/formats/write/content.js";
+import { BATCH, type Content } from "../../src/ts/formats/write/content.js";
 import type { Cloud } from "../cloud/cloud.ts";
-import type { Content } from "../../src/ts/formats/write/content.js";
 import type { Stage } from "../view/stage.ts";
 import type { TimedView } from "../ask/inquiry.ts";
 import { byId } from "../controls/controls.ts";

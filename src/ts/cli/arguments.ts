@@ -8,7 +8,7 @@ import { type TransferOptions } from "../query/transfer.js";
 import { TRANSFER_ROWS } from "../query/option-rows.js";
 import { MAX_WORKERS } from "../worker/workers.js";
 import { endingOf, FORMATS } from "./formats/formats.js";
-import { chosenFormat, type OutputFormat } from "./output-format.js";
+import { chosenFormat, type OutputFormat } from "./outputs.js";
 import {
   oneOf,
   readColumns,

@@ -5,7 +5,7 @@ import type { TransferOptions, Transferred } from "../query/transfer.js";
 import type { VisibilityOptions } from "../query/view-options.js";
 import { WorkerPointCloud } from "../worker.js";
 import { defaultWorkers } from "../worker/workers.js";
-import type { PointFile } from "./formats/point-file.js";
+import type { PointFile } from "./formats/frames.js";
 import { readImage } from "./images.js";
 import type { NamedCamera, NamedSeat } from "./places.js";
 

@@ -1,5 +1,5 @@
 import type { Answer } from "./ask.js";
-import type { OutputFormat } from "./output-format.js";
+import type { OutputFormat } from "./outputs.js";
 
 type NumberList = Uint8Array | Uint32Array | Float32Array | Float64Array;
 

@@ -1,9 +1,8 @@
 // Reads the files that say from where: cameras, or viewpoints.
-import { Contradictions } from "../formats/contradictions.js";
+import { Contradictions, lineProblem, printable } from "../formats/problem.js";
 import { stat } from "node:fs/promises";
 import { parse } from "node:path";
 
-import { lineProblem, printable } from "../formats/problem.js";
 import { TableRows } from "../formats/table.js";
 import { cell, isComment, separatorOf, split } from "../formats/table-words.js";
 import { bytesSource, lines as linesOf } from "../formats/source.js";

@@ -1,11 +1,10 @@
 import { describe, HprError } from "../base/errors.js";
 import type { ChosenColumns as Chosen } from "../formats/axes.js";
-import type { CloudFile } from "../formats/cloud-file.js";
+import { type CloudFile, indicesByStation } from "../formats/cloud-file.js";
 import { displayColors } from "../formats/colors.js";
 import type { Crs, Unit } from "../formats/las/crs.js";
 import type { Values } from "../formats/numbers.js";
 import { readFile } from "../formats/read.js";
-import { indicesByStation } from "../formats/stations.js";
 import type { InitInput } from "../instance/compile.js";
 import { flag, givenOptions, listener } from "../query/options.js";
 import { readSignal, reasonOf } from "../worker/abort.js";

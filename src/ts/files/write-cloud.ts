@@ -1,6 +1,5 @@
 import { describe, HprError } from "../base/errors.js";
-import type { FilledColumn } from "../formats/column.js";
-import type { Values } from "../formats/numbers.js";
+import type { FilledColumn, Values } from "../formats/numbers.js";
 import { contentOf, type WrittenFormat } from "../formats/write/content.js";
 import { lasParts } from "../formats/write/las.js";
 import { plyParts } from "../formats/write/ply.js";

@@ -1,6 +1,5 @@
 import type { CloudFile, Reading } from "./cloud-file.js";
-import type { Column } from "./column.js";
-import { newValues, type Values } from "./numbers.js";
+import { type Column, newValues, type Values } from "./numbers.js";
 import { FormatProblem } from "./problem.js";
 
 /** Memory is taken for so many numbers at first. A line of a table may have any number of columns. */

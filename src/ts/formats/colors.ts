@@ -1,6 +1,5 @@
 import type { CloudFile } from "./cloud-file.js";
-import type { FilledColumn } from "./column.js";
-import type { Values } from "./numbers.js";
+import type { FilledColumn, Values } from "./numbers.js";
 
 /**
  * The display colors in bytes. A file may have bytes, shares of 1, or 16 bits, in which many programs write bytes.

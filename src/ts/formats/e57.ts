@@ -1,11 +1,8 @@
 import { CloudBuilder } from "./builder.js";
-import type { CloudFile, Place, Reading } from "./cloud-file.js";
-import type { Column } from "./column.js";
-import { Contradictions } from "./contradictions.js";
+import { type CloudFile, type Place, type Reading, SCAN, scanColumns } from "./cloud-file.js";
+import type { Column, NumberType } from "./numbers.js";
+import { Contradictions, FormatProblem } from "./problem.js";
 import { crsOf } from "./las/crs.js";
-import type { NumberType } from "./numbers.js";
-import { FormatProblem } from "./problem.js";
-import { SCAN, scanColumns } from "./stations.js";
 import { FilesWasm, MISSING, moduleOf } from "./wasm.js";
 
 /** E57: all scans, one after another, in the coordinates of the file. Colors are bytes. */

@@ -1,6 +1,6 @@
 import { CloudBuilder } from "./builder.js";
 import type { CloudFile, Reading } from "./cloud-file.js";
-import type { Column } from "./column.js";
+import type { Column } from "./numbers.js";
 import { type Accessor, GltfData, type GltfJson, type Numbers } from "./gltf-data.js";
 import { FormatProblem } from "./problem.js";
 import { step } from "./read-rows.js";

@@ -1,11 +1,9 @@
 import { CloudBuilder } from "./builder.js";
-import type { CloudFile, FileStation, Place, Reading } from "./cloud-file.js";
-import { Contradictions } from "./contradictions.js";
+import { type CloudFile, type FileStation, type Place, type Reading, SCAN, scanColumns } from "./cloud-file.js";
+import { Contradictions, endsEarly, FormatProblem, lineProblem } from "./problem.js";
 import { countIn, fitsType, isOutOfRange, numberIn } from "./numbers.js";
-import { endsEarly, FormatProblem, lineProblem } from "./problem.js";
 import { step } from "./read-rows.js";
 import { lines } from "./source.js";
-import { SCAN, scanColumns } from "./stations.js";
 import { textOf } from "./text-source.js";
 import { trimmed, wordsOf } from "./text.js";
 

@@ -1,14 +1,10 @@
 // Reads rows that a header describes, from a file that is read a block at a time.
 import { CloudBuilder } from "./builder.js";
-import { checkByteOrder, ORDER_SAMPLE } from "./byte-order.js";
+import { checkByteOrder, ORDER_SAMPLE, type Axes, type Group, hasLists, rowBytes, walkRow, TextRows } from "./rows.js";
 import type { CloudFile, Reading, Records } from "./cloud-file.js";
-import { type Column, PACKED } from "./column.js";
-import { fitSingle, numberReader, type NumberReader, type NumberType } from "./numbers.js";
-import { Contradictions } from "./contradictions.js";
-import { endsEarly, FormatProblem } from "./problem.js";
-import { type Axes, type Group, hasLists, rowBytes, walkRow } from "./rows.js";
+import { type Column, PACKED, fitSingle, numberReader, type NumberReader, type NumberType } from "./numbers.js";
+import { Contradictions, endsEarly, FormatProblem } from "./problem.js";
 import { BLOCK, blocks, lines, type Source, viewOf } from "./source.js";
-import { TextRows } from "./text-rows.js";
 import { restSays } from "./text.js";
 
 /** A file's points, and the other fields that become columns. */

@@ -1,8 +1,7 @@
 import { CloudBuilder } from "./builder.js";
 import type { CloudFile, Reading } from "./cloud-file.js";
-import { Contradictions } from "./contradictions.js";
+import { Contradictions, lineProblem } from "./problem.js";
 import { isOutOfRange } from "./numbers.js";
-import { lineProblem } from "./problem.js";
 import { step } from "./read-rows.js";
 import { lines } from "./source.js";
 import { cell } from "./table-words.js";

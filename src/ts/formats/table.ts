@@ -1,10 +1,19 @@
 import { type ChosenColumns, isNumber } from "./axes.js";
-import type { Contradictions } from "./contradictions.js";
+import { type Contradictions, FormatProblem, lineProblem } from "./problem.js";
 import { isOutOfRange } from "./numbers.js";
-import { FormatProblem, lineProblem } from "./problem.js";
 import type { Axes } from "./rows.js";
-import { areDegrees, areUnits, axesIn, type Names, namesIn } from "./table-names.js";
-import { cell, isComment, type Separator, separatorOf, split } from "./table-words.js";
+import {
+  areDegrees,
+  areUnits,
+  axesIn,
+  type Names,
+  namesIn,
+  cell,
+  isComment,
+  type Separator,
+  separatorOf,
+  split,
+} from "./table-words.js";
 import { trimmed } from "./text.js";
 
 /** How the lines of a table are read. */

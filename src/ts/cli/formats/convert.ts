@@ -2,7 +2,8 @@
 import { contentOf, type WrittenFormat } from "../../formats/write/content.js";
 import { finestScale, lasParts } from "../../formats/write/las.js";
 import { plyParts } from "../../formats/write/ply.js";
-import type { PointFile } from "./point-file.js";
+import type { PointFile } from "./frames.js";
+import type { Transferred } from "../../query/transfer.js";
 
 /** The endings of files that the points of all formats can be written to. */
 export const CONVERTED: readonly string[] = [".ply", ".las"];
@@ -26,4 +27,23 @@ export function lost({ las, crs, leftOut = [], unread = [], positions }: PointFi
   if (crs) said.push(`the coordinate system, but for its name ${crs.name}`);
   if (las && las.records.length > 0) said.push(`${las.records.length} × record of LAS`);
   return said;
+}
+
+/**
+ * A binary PLY file of all points in their order, each with its color, or its value if there is one channel, and with the
+ * number of cameras that see it. What no camera sees is black, or NaN, and its `seen` is 0.
+ */
+export function coloredPly(
+  positions: Float32Array | Float64Array,
+  { values, channels, seen }: Transferred,
+): Iterable<Uint8Array> {
+  const isColor = channels >= 3;
+  return plyParts({
+    positions,
+    colors: isColor
+      ? new Uint8Array(3 * seen.length).map((_, i) => Math.round(values[channels * Math.floor(i / 3) + (i % 3)]! || 0))
+      : null,
+    fields: [...(isColor ? [] : [{ name: "value", values }]), { name: "seen", values: seen }],
+    indices: new Uint32Array(seen.length).map((_, i) => i),
+  });
 }

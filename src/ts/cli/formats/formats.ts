@@ -9,10 +9,7 @@ import { bytesSource } from "../../formats/source.js";
 import { compileFiles } from "../../files/wasm.js";
 import { CONVERTED } from "./convert.js";
 import { lasFrame } from "./las.js";
-import { pcdFrame } from "./pcd.js";
-import { plyFrame } from "./ply.js";
-import type { Frame, PointFile } from "./point-file.js";
-import { tableFrame } from "./table.js";
+import { pcdFrame, plyFrame, type Frame, type PointFile, tableFrame } from "./frames.js";
 
 interface Format {
   /** What the file must hold. */

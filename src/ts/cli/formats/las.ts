@@ -9,7 +9,7 @@ import {
   readLasHeader,
 } from "../../formats/las/header.js";
 import { viewOf } from "../../formats/source.js";
-import type { Frame } from "./point-file.js";
+import type { Frame } from "./frames.js";
 
 /** The places in the header (LAS Specification 1.4 R15, table 3). */
 const [COUNT, COUNTS_BY_RETURN, BOUNDS, WAVES, EXTENDED, WIDE_COUNT, WIDE_BY_RETURN] = [

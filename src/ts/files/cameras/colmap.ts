@@ -1,8 +1,13 @@
-import { FormatProblem } from "../../formats/problem.js";
+import { FormatProblem, lineProblem } from "../../formats/problem.js";
 import { type Source, viewOf, wholeFile } from "../../formats/source.js";
 import { CAMERA_MODELS, type CameraModel, type Intrinsics } from "../../query/camera.js";
 import { cameraFromPose } from "../../query/cameras.js";
-import { type CameraOfImage, checked, lensOf, parametersOf } from "./camera-file.js";
+import { type CameraOfImage, checked, lensOf, parametersOf, numbersIn, textLines } from "./camera-file.js";
+import { countIn, numberIn } from "../../formats/numbers.js";
+import { wordsOf } from "../../formats/text.js";
+import { HprError } from "../../base/errors.js";
+import { allocating } from "../../base/memory.js";
+import type { SeenBy } from "../../query/seen-by.js";
 
 /** @param pose QW, QX, QY, QZ, TX, TY, TZ: from the world to the camera */
 export function cameraBy(
@@ -121,4 +126,80 @@ class Bytes {
   end(): void {
     if (this.#at < this.#bytes.length) throw new FormatProblem(`it goes on at byte ${this.#at}, after its last entry`);
   }
+}
+
+const isContent = (text: string) => text !== "" && !text.startsWith("#");
+
+/** `cameras.txt`: CAMERA_ID, MODEL, WIDTH, HEIGHT, PARAMS. */
+export async function readCameraLines(source: Source): Promise<Map<number, Intrinsics>> {
+  const cameras = new Map<number, Intrinsics>();
+  for await (const { text, number: line } of textLines(source)) {
+    if (!isContent(text)) continue;
+    const [id, model, width, height, ...parameters] = wordsOf(text);
+    const own = countIn(id);
+    if (own === undefined) throw lineProblem(line, "has no number for CAMERA_ID", text);
+    if (cameras.has(own)) throw lineProblem(line, "has a CAMERA_ID a second time", text);
+    if (!Object.hasOwn(CAMERA_MODELS, model ?? "")) throw lineProblem(line, "has a MODEL that is not read", text);
+    const count = parametersOf(model as CameraModel);
+    if (parameters.length !== count) {
+      throw lineProblem(line, `has ${parameters.length} PARAMS, and ${model!} has ${count}`, text);
+    }
+    const size = { width: countIn(width) ?? NaN, height: countIn(height) ?? NaN };
+    const lens = lensOf(model as CameraModel, size, numbersIn(parameters, line, "PARAMS"));
+    cameras.set(own, checked(lens, (says) => lineProblem(line, says, text))); // prettier-ignore
+  }
+  return cameras;
+}
+
+/** `images.txt`: IMAGE_ID, QW, QX, QY, QZ, TX, TY, TZ, CAMERA_ID, NAME, and below each such line its points in the image. */
+export async function readImageLines(
+  source: Source,
+  cameras: ReadonlyMap<number, Intrinsics>,
+): Promise<CameraOfImage[]> {
+  const images: CameraOfImage[] = [];
+  let isPoints = false;
+  for await (const { text, number: line } of textLines(source)) {
+    const refuse = (says: string) => lineProblem(line, says, text);
+    if (isPoints) {
+      // A file without these lines would otherwise lose every other image.
+      const words = wordsOf(text);
+      const isTriples = words.length % 3 === 0 && (words.length === 0 || numberIn(words.at(-1)!) !== undefined);
+      if (!isTriples) throw refuse("does not hold POINTS2D, as every line below an image does");
+      isPoints = false;
+    } else if (isContent(text)) {
+      const [id, qw, qx, qy, qz, tx, ty, tz, camera] = wordsOf(text);
+      const name = /^(?:\S+\s+){9}(.+)$/.exec(text)?.[1];
+      if (countIn(id) === undefined || name === undefined) throw refuse("is not IMAGE_ID, pose, CAMERA_ID and NAME");
+      const pose = numbersIn([qw!, qx!, qy!, qz!, tx!, ty!, tz!], line, "the pose");
+      images.push(cameraBy(cameras, countIn(camera), pose, name, refuse));
+      isPoints = true;
+    }
+  }
+  return images;
+}
+
+/**
+ * Which cameras see each point, as COLMAP's `fused.ply.vis` says it: little-endian, the number of points in 64 bits, then
+ * for each point how many images see it, and their numbers from 0, in 32 bits each.
+ *
+ * @throws HprError `option` for an argument that is no answer of `seenBy`, `too-large`.
+ */
+export function colmapVis({ offsets, cameras }: Pick<SeenBy, "offsets" | "cameras">): Uint8Array<ArrayBuffer> {
+  if (offsets.length === 0 || offsets.at(-1) !== cameras.length) {
+    throw new HprError("option", "colmapVis needs what seenBy of a cloud answers");
+  }
+  const count = offsets.length - 1;
+  const file = allocating(`${count} rows`, () => new DataView(new ArrayBuffer(8 + 4 * (count + cameras.length))));
+  file.setBigUint64(0, BigInt(count), true);
+  let at = 8;
+  const put = (number: number) => {
+    file.setUint32(at, number, true);
+    at += 4;
+  };
+  for (let i = 0; i < count; i++) {
+    const row = cameras.subarray(offsets[i], offsets[i + 1]);
+    put(row.length);
+    row.forEach(put);
+  }
+  return new Uint8Array(file.buffer);
 }

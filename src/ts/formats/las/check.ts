@@ -1,5 +1,5 @@
 // Where a LAS file contradicts itself: its header, the places of its points, and the points.
-import type { Contradictions } from "../contradictions.js";
+import type { Contradictions } from "../problem.js";
 import { type Source, viewOf } from "../source.js";
 import type { LasDetails } from "./details.js";
 import { LAS_RECORD_HEADER } from "./header.js";

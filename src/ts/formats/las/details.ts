@@ -1,10 +1,9 @@
-import type { Column } from "../column.js";
-import { bytesOf, type NumberReader, numberReader, type NumberType } from "../numbers.js";
+import { type Column, bytesOf, type NumberReader, numberReader, type NumberType } from "../numbers.js";
 import { FormatProblem } from "../problem.js";
 import { type Source, viewOf } from "../source.js";
-import { CLASSES, CLASSIFICATION } from "./classes.js";
-import { type Crs, crsOf, type CrsRecords } from "./crs.js";
 import {
+  CLASSES,
+  CLASSIFICATION,
   LAS_RECORD_HEADER,
   type LasHeader,
   type LasRecord,
@@ -12,8 +11,10 @@ import {
   LONGEST_LAS_HEADER,
   readLasHeader,
   textAt,
+  type FieldPlace,
+  layoutOf,
 } from "./header.js";
-import { type FieldPlace, layoutOf } from "./places.js";
+import { type Crs, crsOf, type CrsRecords } from "./crs.js";
 
 /** A LAS header, the values of its points, and their coordinate system. */
 export interface LasDetails extends LasHeader {

@@ -1,4 +1,5 @@
 import { FormatProblem } from "../problem.js";
+import type { NumberType } from "../numbers.js";
 
 /**
  * The parts of a LAS header for the versions 1.0 to 1.4 (ASPRS, LAS Specification 1.4 R15). The copc package also has
@@ -128,4 +129,83 @@ export function lasPosition({ scale, offset }: LasHeader, view: DataView, at: nu
     view.getInt32(at + 4, true) * scale[1] + offset[1],
     view.getInt32(at + 8, true) * scale[2] + offset[2],
   ];
+}
+
+/** The classes of the LAS specification (1.4 R15, table 17). */
+export const CLASSES: Readonly<Record<number, string>> = {
+  0: "never classified", 1: "unclassified", 2: "ground", 3: "low vegetation", 4: "medium vegetation", 5: "high vegetation",
+  6: "building", 7: "low noise", 8: "key point", 9: "water", 10: "rail", 11: "road", 12: "overlap", 13: "wire guard",
+  14: "wire", 15: "transmission tower", 16: "wire connector", 17: "bridge deck", 18: "high noise", 19: "overhead structure",
+  20: "ignored ground", 21: "snow", 22: "temporal exclusion",
+}; // prettier-ignore
+
+/** The name of the column with a point's class. */
+export const CLASSIFICATION = "classification";
+
+/** Where a point's number is in its record. The reader and the writer of LAS take it from the same table. */
+export interface FieldPlace {
+  name: string;
+  type: NumberType;
+  offset: number;
+  /** The bits of a byte that belong to it, from the lowest one on. Without them, it has its own bytes. */
+  bits?: readonly [first: number, count: number];
+  /** Nobody colors points by it. */
+  isDetail?: true;
+}
+
+export interface PointLayout {
+  bytes: number;
+  places: readonly FieldPlace[];
+}
+
+/** For each point format (ASPRS, LAS Specification 1.4 R15): the places of its color and its time. */
+const FORMATS: Record<number, { color?: number; time?: number; infrared?: number }> = {
+  0: {},
+  1: { time: 20 },
+  2: { color: 20 },
+  3: { time: 20, color: 28 },
+  4: { time: 20 },
+  5: { time: 20, color: 28 },
+  6: { time: 22 },
+  7: { time: 22, color: 30 },
+  8: { time: 22, color: 30, infrared: 36 },
+  9: { time: 22 },
+  10: { time: 22, color: 30, infrared: 36 },
+};
+
+/** Where the numbers of a point format are, besides x, y and z. `null`: there is no such format. */
+export function layoutOf(format: number): PointLayout | null {
+  const layout = FORMATS[format];
+  if (!layout) return null;
+  const { color, time, infrared } = layout;
+  const own = (name: string, type: NumberType, offset: number): FieldPlace => ({ name, type, offset });
+  const shared = (name: string, offset: number, first: number, count: number): FieldPlace => ({
+    name,
+    type: "uint8",
+    offset,
+    bits: [first, count],
+  });
+  const detail = (place: FieldPlace): FieldPlace => ({ ...place, isDetail: true });
+  const isNew = format >= 6;
+  return {
+    bytes: LAS_POINT_BYTES[format]!,
+    places: [
+      ...(color === undefined
+        ? []
+        : ["red", "green", "blue"].map((channel, i) => own(channel, "uint16", color + 2 * i))),
+      own("intensity", "uint16", 12),
+      isNew ? own("classification", "uint8", 16) : shared("classification", 15, 0, 5),
+      shared("return number", 14, 0, isNew ? 4 : 3),
+      own("point source", "uint16", isNew ? 20 : 18),
+      ...(time === undefined ? [] : [own("time", "float64", time)]),
+      ...(infrared === undefined ? [] : [own("near infrared", "uint16", infrared)]),
+      detail(isNew ? shared("number of returns", 14, 4, 4) : shared("number of returns", 14, 3, 3)),
+      detail(isNew ? own("scan angle", "int16", 18) : own("scan angle", "int8", 16)),
+      detail(own("user data", "uint8", 17)),
+      detail(isNew ? shared("class flags", 15, 0, 4) : shared("class flags", 15, 5, 3)),
+      ...(isNew ? [detail(shared("scanner channel", 15, 4, 2))] : []),
+      detail(shared("scan direction", isNew ? 15 : 14, 6, 1)),
+      detail(shared("edge of flight line", isNew ? 15 : 14, 7, 1)),
+    ],
+  };
 }

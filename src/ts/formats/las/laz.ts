@@ -1,6 +1,5 @@
 // Which bytes of a LAZ file are which of its points, and their decoder.
-import type { Contradictions } from "../contradictions.js";
-import { FormatProblem } from "../problem.js";
+import { type Contradictions, FormatProblem } from "../problem.js";
 import { type Source, viewOf } from "../source.js";
 import { FilesWasm } from "../wasm.js";
 import type { LasHeader } from "./header.js";

@@ -1,7 +1,6 @@
 import { CloudBuilder, grown } from "../builder.js";
 import type { CloudFile, Reading } from "../cloud-file.js";
-import { Contradictions } from "../contradictions.js";
-import { FormatProblem } from "../problem.js";
+import { Contradictions, FormatProblem } from "../problem.js";
 import { eachRow, equalRecords } from "../read-rows.js";
 import { BoxCheck, checkCounts, countStored } from "./check.js";
 import { type LasDetails, readLasDetails } from "./details.js";

@@ -1,7 +1,6 @@
 import type { CloudFile } from "../cloud-file.js";
 import { displayColors, displayScale } from "../colors.js";
-import type { FilledColumn } from "../column.js";
-import type { Values } from "../numbers.js";
+import type { FilledColumn, Values } from "../numbers.js";
 
 /** Points, their numbers, and those that are to be written. */
 export interface Content {

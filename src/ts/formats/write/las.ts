@@ -1,7 +1,6 @@
-import { type FilledColumn as Field, valueAt } from "../column.js";
+import { type FilledColumn as Field, valueAt, type Values } from "../numbers.js";
 import type { LasSource } from "../las/details.js";
-import { type FieldPlace, layoutOf } from "../las/places.js";
-import type { Values } from "../numbers.js";
+import { type FieldPlace, layoutOf } from "../las/header.js";
 import { BATCH, type Content } from "./content.js";
 
 const HEAD = 375;

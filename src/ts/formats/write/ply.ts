@@ -1,5 +1,4 @@
-import { type FilledColumn, valueAt } from "../column.js";
-import type { Values } from "../numbers.js";
+import { type FilledColumn, valueAt, type Values } from "../numbers.js";
 import { BATCH, type Content } from "./content.js";
 
 /** The types of PLY, and how their numbers are written. All other numbers are doubles. */
