@@ -15,13 +15,11 @@ use crate::cloud::plane::off_plane;
 use crate::cloud::points::Points;
 use crate::cloud::quadric::off_quadric;
 use crate::cloud::sheets::{Sample, are_sheets, next_sheet};
-use crate::cloud::statistics::{mean_distance, sampled_place};
+use crate::cloud::statistics::mean_distance;
 use crate::cloud::surface;
 
 /// Clouds with fewer points tell nothing.
 const FEWEST: usize = 2000;
-/// How many points are measured at most.
-const SAMPLES: usize = 2048;
 /// Neighbors of the small and the large surroundings of a point.
 const NEAR: [usize; 2] = [16, 32];
 /// The percentile of the distances off the quadric.
@@ -92,10 +90,10 @@ pub(crate) struct Noise {
 }
 
 impl Noise {
-    /// Measures distinct points along the Hilbert curve.
-    pub(crate) fn of(points: &Points) -> Result<Self, OutOfMemory> {
+    /// Measures distinct points along the Hilbert curve, at the places of a sample.
+    pub(crate) fn of(points: &Points, sample: &[u32]) -> Result<Self, OutOfMemory> {
         let neighbors = &Neighbors::new(points)?;
-        let measured = Measured::of(points, neighbors)?;
+        let measured = Measured::of(points, neighbors, sample)?;
         let mut spacings = with_capacity(measured.samples.len())?;
         spacings.extend(measured.samples.iter().map(|sample| sample.spacing));
         let longest = surface::longest(&spacings)?;
@@ -173,9 +171,10 @@ struct Measured {
 
 impl Measured {
     #[inline(never)]
-    fn of(points: &Points, neighbors: &Neighbors) -> Result<Self, OutOfMemory> {
-        let n = points.len();
-        let count = if n < FEWEST { 0 } else { n.min(SAMPLES) };
+    fn of(points: &Points, neighbors: &Neighbors, sample: &[u32]) -> Result<Self, OutOfMemory> {
+        let is_enough = points.len() >= FEWEST;
+        let sample = if is_enough { sample } else { &[] };
+        let count = sample.len();
         let mut samples: Vec<Sample> = with_capacity(count)?;
         let mut ratios = [with_capacity(count)?, with_capacity(count)?];
         let mut lengths: Vec<f64> = with_capacity(count)?;
@@ -183,8 +182,8 @@ impl Measured {
         let [_, most] = NEAR;
         let mut places: Vec<DVec3> = with_capacity(most + 1)?;
         let mut nearest = Nearest::with_capacity(most)?;
-        for sample in 0..count {
-            let query = sampled_place(sample, count, n);
+        for &query in sample {
+            let query = query as usize;
             neighbors.find(query, &mut nearest);
             let found = nearest.found();
             let place = points.get(query);

@@ -15,7 +15,7 @@ use crate::cloud::points::{Given, Points, Position, checked_len, is_finite};
 use crate::cloud::selection::Region;
 use crate::cloud::sequence::Sequence;
 use crate::cloud::spatial::{Bounds, HilbertCurve};
-use crate::cloud::statistics::Statistics;
+use crate::cloud::statistics::{Statistics, sample_of};
 
 /// The share of a cloud's building that is done when its points are checked, and when
 /// they are sorted.
@@ -57,6 +57,7 @@ pub struct PointCloud {
 pub(crate) struct Kept {
     /// The cloud of the points in a region.
     pub within: Option<(Region, Box<PointCloud>)>,
+    pub sample: Once<Arc<[u32]>>,
     pub statistics: Once<Statistics>,
     pub noise: Once<Arc<Noise>>,
     pub surface: Once<Surface>,
@@ -78,7 +79,7 @@ pub(crate) struct Survey {
 /// A cloud whose points moved to the planes of their neighbors.
 pub(crate) struct Smooth {
     pub cloud: Box<PointCloud>,
-    pub noise: Noise,
+    pub noise: Arc<Noise>,
 }
 
 impl Clone for Kept {
@@ -298,13 +299,30 @@ impl PointCloud {
     }
 
     pub(crate) fn statistics(&self) -> Result<Statistics, OutOfMemory> {
-        let measure = || Statistics::measure(&self.sequence.points, &self.bounds);
+        let measure = || {
+            Statistics::measure(
+                &self.sequence.points,
+                &self.bounds,
+                &*self.measured_places()?,
+            )
+        };
         self.kept.statistics.get(measure)
+    }
+
+    /// The places of the points that are measured.
+    fn measured_places(&self) -> Result<Arc<[u32]>, OutOfMemory> {
+        let choose = || Ok(Arc::from(sample_of(&self.sequence.points, &self.bounds)?));
+        self.kept.sample.get(choose)
     }
 
     /// What a sample tells of the cloud's noise.
     pub(crate) fn known_noise(&self) -> Result<Arc<Noise>, OutOfMemory> {
-        let measure = || Ok(Arc::new(Noise::of(&self.sequence.points)?));
+        let measure = || {
+            Ok(Arc::new(Noise::of(
+                &self.sequence.points,
+                &*self.measured_places()?,
+            )?))
+        };
         self.kept.noise.get(measure)
     }
 

@@ -5,8 +5,8 @@
 
 use alloc::vec::Vec;
 
-use crate::base::allocation::{OutOfMemory, filled};
-use crate::base::real::square_root;
+use crate::base::allocation::{OutOfMemory, filled, push, with_capacity};
+use crate::base::real::{power_of_two_below, square_root};
 use crate::cloud::neighbors::{Nearest, Neighbor, Neighbors};
 use crate::cloud::points::Points;
 use crate::cloud::spatial::Bounds;
@@ -16,6 +16,8 @@ use crate::cloud::{filling, surface};
 pub(crate) const NEIGHBORS: usize = 6;
 /// How many points are measured; with more of them the mean hardly changes.
 pub(crate) const SAMPLES: usize = 2048;
+/// How many shells around the centroid are told apart before any point is sorted.
+const SHELLS: usize = 1 << 14;
 
 /// The statistics from which the automatic radius is computed.
 #[derive(Clone, Copy, Debug, Default)]
@@ -40,60 +42,36 @@ pub(crate) struct Statistics {
 }
 
 impl Statistics {
-    /// Measures `points`: distinct, finite, along the Hilbert curve.
-    pub(crate) fn measure(points: &Points, bounds: &Bounds) -> Result<Self, OutOfMemory> {
+    /// Measures `points`: distinct, finite, along the Hilbert curve. `sample` holds places among them.
+    pub(crate) fn measure(
+        points: &Points,
+        bounds: &Bounds,
+        sample: &[u32],
+    ) -> Result<Self, OutOfMemory> {
         let n = points.len();
         if n == 0 {
             return Ok(Self::default());
         }
-        // Sums relative to a corner of the box keep the detail of georeferenced clouds.
-        let corner = bounds.min;
-        let mut sum = [0.0; 3];
-        for p in points.iter() {
-            for axis in 0..3 {
-                sum[axis] += p[axis] - corner[axis];
-            }
-        }
-        let centroid = core::array::from_fn(|axis| corner[axis] + sum[axis] / n as f64);
-        let samples =
-            Self::of_samples(sampled_spacings(points)?, n, bounds, &|sample, samples| {
-                points.get(sampled_place(sample, samples, n))
-            })?;
-        Ok(Self {
-            centroid,
-            ..samples
-        })
-    }
-
-    /// Everything but the centroid, from the spacings of sampled points of a cloud of `count`.
-    /// `point` gives a sampled point by its number and the number of samples.
-    #[inline(never)]
-    pub(crate) fn of_samples(
-        spacings: Vec<f64>,
-        count: usize,
-        bounds: &Bounds,
-        point: &dyn Fn(usize, usize) -> [f64; 3],
-    ) -> Result<Self, OutOfMemory> {
+        let spacings = sampled_spacings(points, sample)?;
         let spacing = surface::mean(&spacings);
         let longest = surface::longest(&spacings)?;
-        let samples = spacings.len();
-        let point = |sample| point(sample, samples);
+        let point = |number: usize| points.get(sample[number] as usize);
         // The points of clouds of two dimensions are on curves, which fill nothing. Clouds in a plane
         // x = const or y = const are like those in a plane z = const.
         let is_flat = (0..3).any(|axis| bounds.min[axis] >= bounds.max[axis]);
         let widening = if is_flat {
             1.0
         } else {
-            filling::widening(&spacings, longest, count, &point)
+            filling::widening(&spacings, longest, n, &point)?
         };
         let spacings = surface::cut_off(spacings, longest);
         let gap = surface::gap(&spacings) * widening;
         let areas = surface::into_areas(spacings);
         let axes: [[f64; 2]; 3] =
-            core::array::from_fn(|axis| surface::moments(&areas, &|sample| point(sample)[axis]));
+            core::array::from_fn(|axis| surface::moments(&areas, &|number| point(number)[axis]));
         Ok(Self {
-            count,
-            centroid: [0.0; 3],
+            count: n,
+            centroid: centroid(points, bounds),
             spacing,
             widening,
             gap,
@@ -103,26 +81,86 @@ impl Statistics {
     }
 }
 
+/// The mean of the points. Sums relative to a corner of the box keep the detail of georeferenced clouds.
+fn centroid(points: &Points, bounds: &Bounds) -> [f64; 3] {
+    let corner = bounds.min;
+    let mut sum = [0.0; 3];
+    for p in points.iter() {
+        for axis in 0..3 {
+            sum[axis] += p[axis] - corner[axis];
+        }
+    }
+    core::array::from_fn(|axis| corner[axis] + sum[axis] / points.len() as f64)
+}
+
 /// The mean distances of sampled points from their nearest other points. Empty below two points.
-fn sampled_spacings(points: &Points) -> Result<Vec<f64>, OutOfMemory> {
-    let n = points.len();
-    if n < 2 {
+fn sampled_spacings(points: &Points, sample: &[u32]) -> Result<Vec<f64>, OutOfMemory> {
+    if points.len() < 2 {
         return Ok(Vec::new());
     }
     let neighbors = Neighbors::new(points)?;
     let mut nearest = Nearest::with_capacity(NEIGHBORS)?;
-    let mut spacings = filled(n.min(SAMPLES), 0.0)?;
-    let samples = spacings.len();
-    for (sample, spacing) in spacings.iter_mut().enumerate() {
-        neighbors.find(sampled_place(sample, samples, n), &mut nearest);
-        *spacing = mean_distance(nearest.found(), None);
+    let mut spacings = with_capacity(sample.len())?;
+    for &place in sample {
+        neighbors.find(place as usize, &mut nearest);
+        spacings.push(mean_distance(nearest.found(), None));
     }
     Ok(spacings)
 }
 
-/// The point in the middle of even run number `sample` of the curve.
-pub(crate) fn sampled_place(sample: usize, samples: usize, n: usize) -> usize {
-    ((2 * sample as u64 + 1) * n as u64 / (2 * samples as u64)) as usize
+/// The places of at most [`SAMPLES`] points, in the order of their distance from the centroid: the middle of
+/// each of so many even runs. So it does not matter where the cloud lies, and how it is turned.
+#[inline(never)]
+pub(crate) fn sample_of(points: &Points, bounds: &Bounds) -> Result<Vec<u32>, OutOfMemory> {
+    let n = points.len();
+    let count = n.min(SAMPLES);
+    let mut sample: Vec<u32> = with_capacity(count)?;
+    if n == 0 {
+        return Ok(sample);
+    }
+    let center = centroid(points, bounds);
+    // In this unit no square overflows.
+    let unit = power_of_two_below((1.0 / bounds.diagonal()).min(f64::MAX));
+    let squared = |p: [f64; 3]| {
+        let v = [0, 1, 2].map(|axis| (p[axis] - center[axis]) * unit);
+        v[0] * v[0] + v[1] * v[1] + v[2] * v[2]
+    };
+    // Only the shells that hold a wanted point are sorted.
+    let shell = |p: [f64; 3]| ((squared(p) * SHELLS as f64) as usize).min(SHELLS - 1);
+    let mut inside = filled(SHELLS + 1, 0u32)?;
+    for p in points.iter() {
+        inside[shell(p) + 1] += 1;
+    }
+    for shell in 0..SHELLS {
+        inside[shell + 1] += inside[shell];
+    }
+    let wanted = |number: usize| ((2 * number as u64 + 1) * n as u64 / (2 * count as u64)) as u32;
+    let mut is_wanted = filled(SHELLS, false)?;
+    for number in 0..count {
+        is_wanted[inside.partition_point(|&before| before <= wanted(number)) - 1] = true;
+    }
+    let mut members: Vec<(u64, u32)> = Vec::new();
+    for (place, p) in points.iter().enumerate() {
+        if is_wanted[shell(p)] {
+            push(&mut members, (squared(p).to_bits(), place as u32))?;
+        }
+    }
+    members.sort_unstable();
+    // How many of the members lie before the shell of the next wanted point.
+    let mut before = 0;
+    let mut last = 0;
+    for number in 0..count {
+        let rank = wanted(number);
+        let shell = inside.partition_point(|&before| before <= rank) - 1;
+        while last < shell {
+            if is_wanted[last] {
+                before += inside[last + 1] - inside[last];
+            }
+            last += 1;
+        }
+        sample.push(members[(before + rank - inside[shell]) as usize].1);
+    }
+    Ok(sample)
 }
 
 /// The mean distance to the `found` points, nearest first, and to one `added` point, whose squared

@@ -24,6 +24,7 @@ mod looks_thick;
 mod looks_uneven;
 mod maps;
 mod merge;
+mod modes;
 mod opposite;
 mod oracle;
 mod panorama;

@@ -1,4 +1,4 @@
-// Clouds whose points are labeled, from HPR_SHARED: real scans, and simulated ones with noise, gaps and outliers.
+// Clouds whose points are labeled, from HPR_SHARED: thin shapes, real scans, and simulated ones with noise, gaps and outliers.
 import { readdirSync, readFileSync } from "node:fs";
 import { dirname, join } from "node:path";
 import { gunzipSync } from "node:zlib";
@@ -17,6 +17,9 @@ export interface Judged {
   views: JudgedView[];
 }
 
+/** The label of points that are not judged. */
+const UNKNOWN = 255;
+
 export interface JudgedView {
   viewpoint: Point;
   /** For each point: 0 hidden, 1 visible, another number where nobody knows. */
@@ -25,7 +28,8 @@ export interface JudgedView {
   half: number;
 }
 
-const REAL: Record<string, string> = {
+/** The rows of scans. Others are named by the first part of their names. */
+const ROWS: Record<string, string> = {
   "7s_2": "7-Scenes, voxels of 2 cm",
   "7s_4": "7-Scenes, voxels of 4 cm",
   k07: "KITTI 07, five scans",
@@ -34,22 +38,46 @@ const REAL: Record<string, string> = {
   own_k00_0: "own station: KITTI 00",
   own_k07_0: "own station: KITTI 07 in voxels",
   own_nus: "own station: nuScenes",
+  own_lpmcar0: "own station: Velodyne",
+  own_pclroom1: "own station: laser, a room",
+  rgbd_slambook_15_1: "RGB-D rooms (slambook)",
+  rgbd_slambook_30_3: "RGB-D rooms (slambook)",
+  rgbd_pclpair_3: "pair of Kinect frames",
+  obj_dragon_48: "raw scans of objects (Stanford)",
+  obj_bunny_090: "raw scans of objects (Stanford)",
+  lidar_lpmcar3: "Velodyne, three scans",
+  lidar_gicp2: "KITTI, two scans",
+  aerial_topography: "airborne laser",
+  sfm_cup: "structure from motion",
+  mvs_sparse: "multi-view stereo, sparse",
 };
-const METRIC = /^(aerial|rgbd|tls|thin_(fence|scaffold))/;
+const METRIC = /^(aerial_0|rgbd_8|tls|thin_(fence|scaffold))/;
 
 /** The available clouds. There are none without HPR_SHARED. */
 export function* judged(): Generator<Judged> {
-  yield* folder("real", "k07", ({ name, path, count }, views) => {
-    const labels = unzipped(`${path}.lab.gz`);
-    const of = views.map((_, view) => labels.subarray(view * count, (view + 1) * count));
-    return { row: REAL[name] ?? name, isMetric: true, labels: of };
-  });
+  for (const [from, example] of [
+    ["thin", "thin_chair_8k_0"],
+    ["real", "k07"],
+    ["real2", "sfm_cup"],
+  ] as const) {
+    yield* folder(from, example, ({ name, path, count }, views) => {
+      const labels = unzipped(`${path}.lab.gz`);
+      const of = views.map((_, view) => labels.subarray(view * count, (view + 1) * count));
+      const shape = name.split("_")[1]!.replace(/[\d.]+$/, "");
+      const row = ROWS[name] ?? `thin shapes: ${shape}`;
+      return { row, isMetric: from === "real", labels: of };
+    });
+  }
   for (const from of ["noisy", "lidar"]) {
     yield* folder(from, from === "noisy" ? "tls_0p8_village_5" : "reference", ({ name, path, count }, views) => {
       const isLidar = from === "lidar";
       const row = isLidar ? "simulated lidar" : `simulated: ${name.split("_")[0]!}`;
-      const bits = unzipped(`${path}.u8.gz`);
-      const labels = views.map((_, view) => unpacked(bits, view, count));
+      const [seen, unknown] = [unzipped(`${path}.u8.gz`), unzipped(`${path}.k8.gz`)];
+      const labels = views.map((_, view) => {
+        // What only surfaces without points hide, no method can know.
+        const isUnknown = unpacked(unknown, view, count);
+        return unpacked(seen, view, count).map((label, i) => (label === 0 && isUnknown[i] === 1 ? UNKNOWN : label));
+      });
       return { row, isMetric: isLidar || METRIC.test(name), labels };
     });
   }

@@ -5,43 +5,38 @@ import type { Row, Table } from "../bench/report.js";
 import { bounds } from "../bench/views.js";
 import { calibrationError, rankedRight } from "./calibration.js";
 import { judged, type Judged, type JudgedView } from "./judged.js";
-import { buffered, likeNeighbors } from "./rivals.js";
+import { buffered } from "./rivals.js";
+import { zBuffered } from "./z-buffer.js";
 
 const EXPLAINED =
   "Wrong points in % of the judged ones (hidden points that are shown, in % of the hidden / visible points that are lost, in % " +
-  "of the visible), means over the views. Buffers: the nearest range of each cell, + 2 %; in px of a camera of 585 px focal length; " +
-  "only where the unit is the meter. Best R: of each view, by its labels, among exponents of 2.5 to 4.5.";
+  "of the visible) and the mean of the two shares, means over the views. Scans are mostly visible: judge both shares. The z-buffer of splats " +
+  "is in units of the spacing; the other one keeps the nearest range of each cell of 8 px (585 px focal length), + 5 cm + 2 %, only where the " +
+  "unit is the meter.";
 /** One pixel of the camera of 7-Scenes, in radians. */
 const PIXEL = 1 / 585;
-const DEGREE = Math.PI / 180;
-const EXPONENTS = Array.from({ length: 9 }, (_, i) => 2.5 + i / 4);
-const NO_THICKNESS: VisibilityOptions = { looks: 3, thickness: 0 };
 
 type Ask = (cloud: PointCloud, of: Judged, view: JudgedView) => Uint8Array | undefined;
 
 const METHODS: Record<string, Ask> = {
   automatic: by({}),
   "looks: 3": by({ looks: 3 }),
-  "thickness: 0": by(NO_THICKNESS),
-  "z-buffer 4 px, .15 m": inMeters(({ positions }, at) => buffered(positions, at, 4 * PIXEL, 0.15)),
-  "z-buffer 8 px, .05 m": inMeters(({ positions }, at) => buffered(positions, at, 8 * PIXEL, 0.05)),
-  "range buffer 1°, .3 m": inMeters(({ positions }, at) => buffered(positions, at, DEGREE, 0.3)),
-  "R = 100 diagonals": (cloud, { positions }, { viewpoint }) =>
-    cloud.visibleFrom(viewpoint, { radius: 200 * bounds({ positions }).radius }).mask(),
-  "like neighbors": (_, { positions }, { viewpoint }) => likeNeighbors(positions, viewpoint),
-  "best R": (cloud, _, view) => {
-    const masks = EXPONENTS.map((exponent) => cloud.visibleFrom(view.viewpoint, { exponent }).mask());
-    const wrong = masks.map((mask) => wrongOf(mask, view.labels)[0]);
-    return masks[wrong.indexOf(Math.min(...wrong))];
-  },
+  "thickness: 0": by({ looks: 3, thickness: 0 }),
+  "z-buffer of splats": (cloud, { positions }, { viewpoint }) => zBuffered(positions, viewpoint, cloud.spacing),
+  "z-buffer 8 px, .05 m": (_, { positions, isMetric }, { viewpoint }) =>
+    isMetric ? buffered(positions, viewpoint, 8 * PIXEL, 0.05) : undefined,
+  "exponent: 4": by({ exponent: 4 }),
+  "R = 100 diagonals": diagonals(100),
+  "R = 300 diagonals": diagonals(300),
 };
+
+function diagonals(times: number): Ask {
+  return (cloud, { positions }, { viewpoint }) =>
+    cloud.visibleFrom(viewpoint, { radius: 2 * times * bounds({ positions }).radius }).mask();
+}
 
 function by(options: VisibilityOptions): Ask {
   return (cloud, _, { viewpoint }) => cloud.visibleFrom(viewpoint, options).mask();
-}
-
-function inMeters(ask: (of: Judged, viewpoint: JudgedView["viewpoint"]) => Uint8Array): Ask {
-  return (_, of, { viewpoint }) => (of.isMetric ? ask(of, viewpoint) : undefined);
 }
 
 type Wrong = [all: number, shown: number, lost: number];
@@ -127,7 +122,8 @@ function cell(all: (Wrong | undefined)[]): string {
   if (known.length < all.length) return "";
   const mean = (k: number) => (known.reduce((sum, one) => sum + one[k]!, 0) / known.length).toFixed(1);
   const [wrong, shown, lost] = [0, 1, 2].map(mean);
-  return `${wrong!} (${shown!} / ${lost!})`;
+  const balanced = ((Number(shown) + Number(lost)) / 2).toFixed(1);
+  return `${wrong!} (${shown!} / ${lost!}) ${balanced}`;
 }
 
 function scoresRow(views: Scored[]): Row[] {

@@ -1,4 +1,4 @@
-// Rules of others that take no surface either: buffers of ranges, and the ranges of neighbors in the picture.
+// The usual rule that takes no surface either: a buffer of ranges.
 import type { Point } from "../bench/measure.js";
 
 type Positions = Float32Array | Float64Array;
@@ -13,45 +13,11 @@ export function buffered(positions: Positions, viewpoint: Point, cell: number, t
   return Uint8Array.from(cells, (at, i) => Number(ranges[i]! <= 1.02 * nearest.get(at)! + tolerance));
 }
 
-/**
- * After Biasutti et al., "Visibility estimation in point clouds with variable density" (2019): a point is visible if its range is
- * near the least range of its `count` neighbors in the picture, compared with how far their ranges spread.
- */
-export function likeNeighbors(positions: Positions, viewpoint: Point, count = 8, threshold = 0.5): Uint8Array {
-  const cell = Math.sqrt((24 * count) / positions.length);
-  const { cells, ranges, places, width } = directions(positions, viewpoint, cell);
-  const within = new Map<number, number[]>();
-  cells.forEach((at, i) => {
-    const list = within.get(at);
-    if (list === undefined) within.set(at, [i]);
-    else list.push(i);
-  });
-  return Uint8Array.from(cells, (at, i) => {
-    // Neighbors on another face of the cube are left out.
-    const near: [number, number][] = [];
-    for (let ring = 1; near.length < count && ring <= 8; ring *= 2) {
-      near.length = 0;
-      for (let dy = -ring; dy <= ring; dy++) {
-        for (let dx = -ring; dx <= ring; dx++) {
-          for (const j of within.get(at + dy * width + dx) ?? []) {
-            const apart = Math.hypot(places[2 * i]! - places[2 * j]!, places[2 * i + 1]! - places[2 * j + 1]!);
-            if (j !== i && apart < cell * ring * 1.5) near.push([apart, ranges[j]!]);
-          }
-        }
-      }
-    }
-    const all = near.sort(([a], [b]) => a - b).slice(0, count);
-    const [least, most] = [Math.min, Math.max].map((of) => of(ranges[i]!, ...all.map(([, range]) => range)));
-    const share = (ranges[i]! - least!) / (most! - least!);
-    return Number(!(Math.exp(-share * share) < threshold));
-  });
-}
-
-/** The range of each point, its place on a cube around the viewpoint, and the cell there. `cell` is in radians at a face's middle. */
+/** The range of each point, and its cell on a cube around the viewpoint. `cell` is in radians at a face's middle. */
 function directions(positions: Positions, viewpoint: Point, cell: number) {
   const count = positions.length / 3;
   const width = Math.ceil(2 / cell) + 1;
-  const [cells, ranges, places] = [new Float64Array(count), new Float64Array(count), new Float64Array(2 * count)];
+  const [cells, ranges] = [new Float64Array(count), new Float64Array(count)];
   for (let i = 0; i < count; i++) {
     const v = viewpoint.map((x, axis) => positions[3 * i + axis]! - x);
     ranges[i] = Math.hypot(...v);
@@ -61,7 +27,6 @@ function directions(positions: Positions, viewpoint: Point, cell: number) {
     const face = 2 * axis + Number(v[axis]! < 0);
     const [column, row] = [x, y].map((place) => Math.floor((place + 1) / cell));
     cells[i] = (face * width + row!) * width + column!;
-    places.set([x, y], 2 * i);
   }
-  return { cells, ranges, places, width };
+  return { cells, ranges };
 }

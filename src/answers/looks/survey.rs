@@ -19,7 +19,6 @@ use crate::cloud::neighbors::{Nearest, Neighbors};
 use crate::cloud::noise::{Noise, Surface};
 use crate::cloud::point_cloud::{PointCloud, Smooth, Survey};
 use crate::cloud::quadric::off_quadric;
-use crate::cloud::statistics::{mean_distance, sampled_place};
 
 /// How many neighbors make the plane to which a point moves.
 const NEIGHBORS: usize = 32;
@@ -38,18 +37,22 @@ const AROUND: usize = 16;
 #[inline(never)]
 fn are_joined(cloud: &PointCloud, noise: &Noise) -> Result<bool, OutOfMemory> {
     let points = &cloud.sequence.points;
-    let n = points.len();
-    let count = n.min(PLACES);
+    let samples = &noise.samples;
     let neighbors = Neighbors::new(points)?;
     let mut around = Nearest::with_capacity(AROUND)?;
     let mut nearest = Nearest::with_capacity(NEIGHBORS)?;
     let mut moved = with_capacity(AROUND + 1)?;
-    let mut off = with_capacity(count)?;
-    for sample in 0..count {
-        let query = sampled_place(sample, count, n);
+    let mut off = with_capacity(PLACES)?;
+    for sample in samples
+        .iter()
+        .step_by(samples.len().div_ceil(PLACES).max(1))
+    {
+        let query = sample.point as usize;
         neighbors.find(query, &mut around);
-        let spacing = mean_distance(around.found(), None);
-        let origin = DVec3::from_array(points.get(query));
+        let [origin, spacing] = [
+            DVec3::from_array(sample.place),
+            DVec3::splat(sample.spacing),
+        ];
         moved.clear();
         let others = around.found().iter().map(|other| other.index as usize);
         for point in core::iter::once(query).chain(others) {
@@ -70,11 +73,11 @@ impl Smooth {
         let most = cloud.sequence.points.len().saturating_sub(1);
         let neighbors = NEIGHBORS.min(most).max(1);
         let mut moved = cloud.denoised(neighbors)?;
-        let mut noise = Noise::of(&moved.sequence.points)?;
+        let mut noise = moved.known_noise()?;
         for _ in 1..PASSES {
             if noise.ratio > CLEAN {
                 moved = moved.denoised(neighbors)?;
-                noise = Noise::of(&moved.sequence.points)?;
+                noise = moved.known_noise()?;
             }
         }
         Ok(Self {
