@@ -55,9 +55,12 @@ export async function readAs<T>(
     const { buffer, byteOffset, length } = await source.read(0, source.size);
     return await understand(Buffer.from(buffer, byteOffset, length));
   } catch (cause) {
-    if (!(cause instanceof FormatProblem)) throw cause;
+    // By its name: a loader of modules may hold the class twice, since the larger readers are imported when they are needed.
+    if (!(cause instanceof Error && cause.name === "FormatProblem")) throw cause;
     const wayOut =
-      cause.rest === undefined ? "" : ` (--damaged reads ${cause.rest === "anyway" ? "what is there" : "the others"})`;
+      (cause as FormatProblem).rest === undefined
+        ? ""
+        : ` (--damaged reads ${(cause as FormatProblem).rest === "anyway" ? "what is there" : "the others"})`;
     throw new InputProblem(`${name} cannot be read: ${cause.message}${wayOut}`, { cause });
   }
 }
