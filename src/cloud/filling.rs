@@ -2,21 +2,18 @@
 //! span empty. The flat sides of a part have no points but at their rims. No distance to near
 //! neighbors tells of such a gap. Thin things, like wires, are alike: what they hide lies near.
 //!
-//! The samples are halved across their longest axis until regions are left. What a region holds is taken apart
-//! at its widest gaps. Both depend on distances alone, so a cloud that moves or turns has the same regions.
+//! The samples follow the Hilbert curve, so each run of them is one region of the cloud.
 
-use alloc::vec::Vec;
-use glam::{DMat3, DVec3};
+use core::ops::Range;
+use glam::DVec3;
 
-use crate::base::allocation::{OutOfMemory, with_capacity};
 use crate::base::real::square_root;
-use crate::cloud::plane::{least_axis, outer_product};
 
-/// How often the samples are halved, if there are enough of them.
-const HALVINGS: usize = 4;
+/// Regions, if there are enough samples.
+const RUNS: usize = 16;
 /// Samples in a region, at least.
 const LEAST: usize = 16;
-/// A region is cut so often in two, always at the widest gap.
+/// A region is cut so often into halves, always at its longest jump.
 const CUTS: usize = 3;
 /// A region holds things that are far apart if its parts span less than this share of it. Then only
 /// the parts count.
@@ -27,177 +24,118 @@ const EMPTY: f64 = 1.0 / 6.0;
 /// The largest answer.
 const WIDEST: f64 = 32.0;
 
-/// A sampled point. Lengths are in units of the longest spacing.
-#[derive(Clone, Copy)]
-struct Sampled {
-    place: DVec3,
-    /// Its spacing. Points with more than 1 may be strays, which span nothing.
-    side: f64,
-    /// How far it is from the points before it in its region.
-    gap: f64,
+/// Sampled points with the spacing of each.
+struct Samples<'a> {
+    spacings: &'a [f64],
+    /// Points with more than this spacing may be strays, which span nothing.
+    longest: f64,
+    point: &'a dyn Fn(usize) -> [f64; 3],
 }
 
 /// How many times wider the gaps are, 1 at least: (6 × emptiness)⁵. The emptiness is what a region
 /// spans ÷ the area for which its points stand, as a mean over the regions. Spacings count as the
-/// `longest` one at most. `count` points were sampled. `point` gives a sampled point by its number.
+/// `longest` one at most. `count` points were sampled.
 pub(crate) fn widening(
     spacings: &[f64],
     longest: f64,
     count: usize,
     point: &dyn Fn(usize) -> [f64; 3],
-) -> Result<f64, OutOfMemory> {
+) -> f64 {
+    let samples = Samples {
+        spacings,
+        longest,
+        point,
+    };
     let all = spacings.len();
-    if all == 0 {
-        return Ok(1.0);
+    let runs = (all / LEAST).clamp(1, RUNS);
+    let mut emptiness = 0.0;
+    for run in 0..runs {
+        let [start, end] = [run * all / runs, (run + 1) * all / runs];
+        let whole = samples.span(start..end);
+        let parts = samples.parts(start..end, CUTS);
+        let spanned = if parts < APART * whole.area {
+            parts
+        } else {
+            whole.area
+        };
+        emptiness += spanned / whole.stands_for;
     }
-    // Places relative to one of them keep the detail of georeferenced clouds.
-    let origin = DVec3::from_array(point(0));
-    let mut samples: Vec<Sampled> = with_capacity(all)?;
-    samples.extend(
-        spacings
-            .iter()
-            .enumerate()
-            .map(|(sample, spacing)| Sampled {
-                place: (DVec3::from_array(point(sample)) - origin) / longest,
-                side: spacing / longest,
-                gap: 0.0,
-            }),
-    );
-    let mut halvings = 0;
-    while halvings < HALVINGS && all >> (halvings + 1) >= LEAST {
-        halvings += 1;
-    }
-    let regions = f64::from(1 << halvings);
     let weight = count as f64 / all as f64;
-    let ratio = emptiness(&mut samples, halvings) / (regions * weight * EMPTY);
+    let ratio = emptiness / (runs as f64 * weight * EMPTY);
     // It is NaN where numbers overflow, and where there is no spacing.
-    Ok(if ratio > 1.0 {
+    if ratio > 1.0 {
         let square = ratio * ratio;
         (square * square * ratio).min(WIDEST)
     } else {
         1.0
-    })
+    }
 }
 
-/// The sum of the emptiness of the regions into which the samples are halved.
-fn emptiness(samples: &mut [Sampled], halvings: usize) -> f64 {
-    if halvings > 0 {
-        let axis = longest_axis(samples);
-        samples
-            .sort_unstable_by(|one, other| one.place.dot(axis).total_cmp(&other.place.dot(axis)));
-        let (low, high) = samples.split_at_mut(samples.len() / 2);
-        return emptiness(low, halvings - 1) + emptiness(high, halvings - 1);
-    }
-    let whole = span(samples);
-    let connected = connect(samples);
-    let parts = parts(&samples[..connected], CUTS);
-    let spanned = if parts < APART * whole.area {
-        parts
-    } else {
-        whole.area
-    };
-    spanned / whole.stands_for
-}
-
-/// The axis along which the samples vary most.
-fn longest_axis(samples: &[Sampled]) -> DVec3 {
-    let count = samples.len() as f64;
-    let mean = samples
-        .iter()
-        .fold(DVec3::ZERO, |sum, sample| sum + sample.place)
-        / count;
-    let spread = samples.iter().fold(DMat3::ZERO, |sum, sample| {
-        sum + outer_product(sample.place - mean)
-    });
-    let trace = spread.x_axis.x + spread.y_axis.y + spread.z_axis.z;
-    // The same axes, in the other order.
-    least_axis(DMat3::from_diagonal(DVec3::splat(trace)) - spread)
-}
-
-/// Brings the samples that are no strays to the front, each one followed by the nearest of those that
-/// are left (Prim's tree). So the parts beside any gap are runs. Returns their number.
-fn connect(samples: &mut [Sampled]) -> usize {
-    let mut count = 0;
-    for sample in 0..samples.len() {
-        if samples[sample].side <= 1.0 {
-            samples.swap(count, sample);
-            count += 1;
-        }
-    }
-    for sample in &mut samples[..count] {
-        sample.gap = f64::INFINITY;
-    }
-    for next in 0..count.saturating_sub(1) {
-        let place = samples[next].place;
-        let mut nearest = next + 1;
-        for other in next + 1..count {
-            let gap = (samples[other].place - place).length_squared();
-            if gap < samples[other].gap {
-                samples[other].gap = gap;
-            }
-            if samples[other].gap < samples[nearest].gap {
-                nearest = other;
-            }
-        }
-        samples.swap(next + 1, nearest);
-    }
-    count
-}
-
-/// The area that the parts of a connected run span together.
-fn parts(run: &[Sampled], cuts: usize) -> f64 {
-    if cuts == 0 || run.len() < 2 {
-        return span(run).area;
-    }
-    let mut cut = 1;
-    for sample in 1..run.len() {
-        if run[sample].gap > run[cut].gap {
-            cut = sample;
-        }
-    }
-    parts(&run[..cut], cuts - 1) + parts(&run[cut..], cuts - 1)
-}
-
-/// What samples span and stand for. Areas are in squares of the longest spacing.
+/// A run of samples. Areas are in squares of the longest spacing.
 struct Span {
-    /// The area that they span, by their moments: the root of the sum of the principal minors
-    /// of their covariance. For a rectangle it is a twelfth of its area.
+    /// The area that the run spans, by its moments: the root of the sum of the principal minors
+    /// of its covariance. For a rectangle it is a twelfth of its area.
     area: f64,
-    /// The area for which they stand.
+    /// The area for which its points stand.
     stands_for: f64,
+    /// The sample that is farthest from the one before it.
+    cut: usize,
 }
 
-fn span(samples: &[Sampled]) -> Span {
-    let next = |v: DVec3| DVec3::new(v.y, v.z, v.x);
-    let origin = samples.first().map_or(DVec3::ZERO, |first| first.place);
-    let [mut sum, mut squares, mut products] = [DVec3::ZERO; 3];
-    let [mut number, mut stands_for] = [0.0; 2];
-    for &Sampled { place, side, .. } in samples {
-        if side > 1.0 {
-            stands_for += 1.0;
-            continue;
+impl Samples<'_> {
+    /// The area that the parts of a run span together.
+    fn parts(&self, run: Range<usize>, cuts: usize) -> f64 {
+        let whole = self.span(run.clone());
+        if cuts == 0 {
+            return whole.area;
         }
-        stands_for += side * side;
-        let v = place - origin;
-        number += 1.0;
-        sum += v;
-        squares += v * v;
-        products += v * next(v);
+        self.parts(run.start..whole.cut, cuts - 1) + self.parts(whole.cut..run.end, cuts - 1)
     }
-    let mean = sum / number;
-    let variance = squares / number - mean * mean;
-    let covariance = products / number - mean * next(mean);
-    let minors = (variance * next(variance) - covariance * covariance).element_sum();
-    Span {
-        // Roundings can make it negative. It is NaN without samples.
-        area: square_root(if minors > 0.0 { minors } else { 0.0 }),
-        stands_for,
+
+    #[inline(never)]
+    fn span(&self, run: Range<usize>) -> Span {
+        let next = |v: DVec3| DVec3::new(v.y, v.z, v.x);
+        let mut cut = run.start;
+        // Sums relative to one of the places keep the detail of georeferenced clouds.
+        let origin = run.start;
+        let [mut sum, mut squares, mut products, mut last] = [DVec3::ZERO; 4];
+        let [mut number, mut farthest, mut stands_for] = [0.0; 3];
+        for sample in run {
+            let side = self.spacings[sample] / self.longest;
+            if side > 1.0 {
+                stands_for += 1.0;
+                continue;
+            }
+            stands_for += side * side;
+            let from_origin = |sample| DVec3::from_array((self.point)(sample));
+            let v = (from_origin(sample) - from_origin(origin)) / self.longest;
+            let jump = (v - last).length_squared();
+            if jump > farthest {
+                (cut, farthest) = (sample, jump);
+            }
+            last = v;
+            number += 1.0;
+            sum += v;
+            squares += v * v;
+            products += v * next(v);
+        }
+        let mean = sum / number;
+        let variance = squares / number - mean * mean;
+        let covariance = products / number - mean * next(mean);
+        let minors = (variance * next(variance) - covariance * covariance).element_sum();
+        Span {
+            // Roundings can make it negative. It is NaN without samples.
+            area: square_root(if minors > 0.0 { minors } else { 0.0 }),
+            stands_for,
+            cut,
+        }
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use alloc::vec::Vec;
 
     /// Points one apart, along the rim of a square or row by row.
     fn rim(side: usize) -> Vec<[f64; 3]> {
@@ -225,7 +163,7 @@ mod tests {
         let count = (sampled * points.len() as f64) as usize;
         let far = [523_000.0, 4_657_000.0, 120.0];
         let point = |k: usize| core::array::from_fn(|i| far[i] + unit * points[k][i]);
-        widening(&spacings, unit, count, &point).unwrap()
+        widening(&spacings, unit, count, &point)
     }
 
     #[test]
@@ -241,7 +179,7 @@ mod tests {
         }
         // Each region is one of these rims.
         let apart = |k: usize| move |[x, y, z]: [f64; 3]| [x, y + 100.0 * k as f64, z];
-        let rims: Vec<[f64; 3]> = (0..1 << HALVINGS)
+        let rims: Vec<[f64; 3]> = (0..RUNS)
             .flat_map(|k| rim(7).into_iter().map(apart(k)))
             .collect();
         let one = widened(&rim(7), 0.25, 1.0);
@@ -250,29 +188,37 @@ mod tests {
     }
 
     #[test]
-    fn parts_are_taken_apart_at_the_widest_gaps() {
+    fn runs_span_a_twelfth_of_a_rectangle() {
         let points = rectangle(30, 20);
-        let two =
-            |k: usize| DVec3::from_array(points[k % 600]) + DVec3::Z * (1000 * (k / 600)) as f64;
-        let sampled = |side: f64| -> Vec<Sampled> {
-            let sample = |k: usize| Sampled {
-                place: two(k * 7 % 1200),
-                side,
-                gap: 0.0,
-            };
-            (0..1200).map(sample).collect()
+        let mut spacings: Vec<f64> = points.iter().map(|_| 2.0).collect();
+        let two = |k: usize| {
+            let [x, y, z] = points[k % 600];
+            [x, y, z + 1000.0 * (k / 600) as f64]
         };
-        let area = 30.0 * 20.0 / 12.0;
+        spacings.extend_from_within(..);
+        let samples = Samples {
+            spacings: &spacings,
+            longest: 4.0,
+            point: &two,
+        };
+        let area = 30.0 * 20.0 / 12.0 / 16.0;
         let near = |a: f64, b: f64| (a / b - 1.0).abs() < 0.01;
-        let mut samples = sampled(0.5);
-        assert!(near(span(&samples).stands_for, 300.0));
-        assert_eq!(connect(&mut samples), 1200);
-        assert!(near(span(&samples[..600]).area, area));
-        assert!(near(parts(&samples, 1), 2.0 * area));
+        let one = samples.span(600..1200);
+        assert!(
+            near(one.area, area) && near(one.stands_for, 150.0),
+            "{} {}",
+            one.area,
+            one.stands_for
+        );
+        assert_eq!(samples.span(0..1200).cut, 600);
+        assert!(near(samples.parts(0..1200, 1), 2.0 * area));
         // Longer spacings than the longest stand for one square each, and their places do not count.
-        let mut strays = sampled(1.5);
-        assert_eq!(span(&strays).stands_for, 1200.0);
-        assert_eq!(span(&strays).area, 0.0);
-        assert_eq!(connect(&mut strays), 0);
+        let samples = Samples {
+            spacings: &spacings,
+            longest: 1.5,
+            point: &two,
+        };
+        assert_eq!(samples.span(0..600).stands_for, 600.0);
+        assert_eq!(samples.span(0..600).area, 0.0);
     }
 }

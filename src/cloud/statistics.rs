@@ -5,7 +5,7 @@
 
 use alloc::vec::Vec;
 
-use crate::base::allocation::{OutOfMemory, filled, push, with_capacity};
+use crate::base::allocation::{OutOfMemory, copied, filled, push, with_capacity};
 use crate::base::real::{power_of_two_below, square_root};
 use crate::cloud::neighbors::{Nearest, Neighbor, Neighbors};
 use crate::cloud::points::Points;
@@ -52,7 +52,10 @@ impl Statistics {
         if n == 0 {
             return Ok(Self::default());
         }
-        let spacings = sampled_spacings(points, sample)?;
+        // Along the curve: neighbors are near each other, and each run is one region.
+        let mut sample = copied(sample)?;
+        sample.sort_unstable();
+        let spacings = sampled_spacings(points, &sample)?;
         let spacing = surface::mean(&spacings);
         let longest = surface::longest(&spacings)?;
         let point = |number: usize| points.get(sample[number] as usize);
@@ -62,7 +65,7 @@ impl Statistics {
         let widening = if is_flat {
             1.0
         } else {
-            filling::widening(&spacings, longest, n, &point)?
+            filling::widening(&spacings, longest, n, &point)
         };
         let spacings = surface::cut_off(spacings, longest);
         let gap = surface::gap(&spacings) * widening;

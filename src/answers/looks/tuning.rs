@@ -93,14 +93,6 @@ impl Tuning {
             .as_ref()
             .map_or(measured, |smooth| &smooth.noise);
         let is_moved = survey.smooth.is_some();
-        let is_layered = survey.surface == Surface::Layered;
-        let of_layers = if is_layered {
-            LAYERS * measured.beyond_clean()
-        } else {
-            0.0
-        };
-        let thickness = given.unwrap_or(of_layers);
-        let is_thick = is_layered || thickness > 0.0;
         let range = match projection {
             Projection::Perspective(viewpoint) => Some(Range {
                 noise,
@@ -113,6 +105,16 @@ impl Tuning {
             Some(range) => range.growth(&cloud.sequence.points)?,
             None => (0.0, 0.0),
         };
+        let is_layered = survey.surface == Surface::Layered;
+        // What is rough shows its depth only from where it was measured.
+        let counts = if measured.is_rough { ranged } else { 1.0 };
+        let of_layers = if is_layered {
+            LAYERS * counts * measured.beyond_clean()
+        } else {
+            0.0
+        };
+        let thickness = given.unwrap_or(of_layers);
+        let is_thick = is_layered || thickness > 0.0;
         let odds = Odds::of(
             !is_moved && measured.gap.is_some(),
             if is_moved { measured.ratio } else { 0.0 },
