@@ -14,11 +14,13 @@ afterAll(() => remote.dispose());
 
 /** A vector of a library whose `length` is a method. */
 class Vector {
-  constructor(
-    readonly x: number,
-    readonly y: number,
-    readonly z: number,
-  ) {}
+  readonly x: number;
+  readonly y: number;
+  readonly z: number;
+
+  constructor(x: number, y: number, z: number) {
+    [this.x, this.y, this.z] = [x, y, z];
+  }
 
   length(): number {
     return Math.hypot(this.x, this.y, this.z);
