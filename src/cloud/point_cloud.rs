@@ -303,7 +303,7 @@ impl PointCloud {
             Statistics::measure(
                 &self.sequence.points,
                 &self.bounds,
-                &*self.measured_places()?,
+                &self.measured_places()?,
             )
         };
         self.kept.statistics.get(measure)
@@ -320,7 +320,7 @@ impl PointCloud {
         let measure = || {
             Ok(Arc::new(Noise::of(
                 &self.sequence.points,
-                &*self.measured_places()?,
+                &self.measured_places()?,
             )?))
         };
         self.kept.noise.get(measure)
