@@ -17,7 +17,7 @@ const FEW: usize = 32;
 
 /// A number, and the index that is sorted by it. One type for all uses, so that the sort
 /// is compiled once.
-type Keyed = (u64, u32);
+pub(crate) type Keyed = (u64, u32);
 
 /// The percentile of numbers that are not negative: of a hundred, the one with `percent` before it.
 /// `None` where there are no numbers.

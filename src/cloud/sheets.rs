@@ -6,7 +6,7 @@ use glam::{DMat3, DVec3};
 
 use crate::base::allocation::{OutOfMemory, filled, with_capacity};
 use crate::base::real::square_root;
-use crate::base::sort::percentile;
+use crate::base::sort::{Keyed, ordered, percentile, sort_keyed};
 use crate::cloud::neighbors::{Nearest, Neighbors};
 use crate::cloud::plane::{least_axis, outer_product};
 use crate::cloud::points::Points;
@@ -61,7 +61,7 @@ pub(crate) fn are_sheets(
 ) -> Result<bool, OutOfMemory> {
     let mut nearest = Nearest::with_capacity(AROUND)?;
     let mut places: Vec<DVec3> = with_capacity(AROUND + 1)?;
-    let mut heights: Vec<(f64, usize)> = filled(AROUND + 1, (0.0, 0))?;
+    let mut order: Vec<Keyed> = filled(AROUND + 1, (0, 0))?;
     let mut shares = with_capacity(PLACES)?;
     for sample in some(samples).filter(|sample| sample.noise > least) {
         neighbors.find(sample.point as usize, &mut nearest);
@@ -73,7 +73,7 @@ pub(crate) fn are_sheets(
             (other - origin) / sample.spacing
         }));
         let one = off_quadric(&places);
-        let share = off_two_planes(&places, one.normal, &mut heights) / one.deviation;
+        let share = off_two_planes(&places, one.normal, &mut order) / one.deviation;
         // NaN where all points are on the quadric.
         if share >= 0.0 {
             shares.push(share);
@@ -84,31 +84,33 @@ pub(crate) fn are_sheets(
 
 /// How far places lie off two parallel planes, which are first sought across `normal`: the root of the
 /// mean square. The sum of squares is divided by the number of places above 4.
-fn off_two_planes(places: &[DVec3], normal: DVec3, heights: &mut [(f64, usize)]) -> f64 {
+fn off_two_planes(places: &[DVec3], normal: DVec3, order: &mut [Keyed]) -> f64 {
     let mut normal = normal;
     let mut squares = 0.0;
     for _ in 0..ROUNDS {
-        for (place, height) in heights.iter_mut().enumerate() {
-            *height = (places[place].dot(normal), place);
+        for (number, item) in (0..).zip(&mut *order) {
+            *item = (ordered(places[number as usize].dot(normal)), number);
         }
-        heights.sort_unstable_by(|one, other| one.0.total_cmp(&other.0));
+        sort_keyed(order);
+        let place = |(_, number): &Keyed| places[*number as usize];
         // The planes are on both sides of the widest gap.
+        let height = |at: usize| place(&order[at]).dot(normal);
+        let gap = |at: usize| height(at) - height(at - 1);
         let mut cut = FEWEST;
-        for at in FEWEST..=heights.len() - FEWEST {
-            let gap = |at: usize| heights[at].0 - heights[at - 1].0;
+        for at in FEWEST..=order.len() - FEWEST {
             if gap(at) > gap(cut) {
                 cut = at;
             }
         }
-        let (low, high) = heights.split_at(cut);
+        let (low, high) = order.split_at(cut);
         let mut spread = DMat3::ZERO;
         for sheet in [low, high] {
             let sum = sheet
                 .iter()
-                .fold(DVec3::ZERO, |sum, (_, place)| sum + places[*place]);
+                .fold(DVec3::ZERO, |sum, item| sum + place(item));
             let mean = sum / sheet.len() as f64;
-            for (_, place) in sheet {
-                spread += outer_product(places[*place] - mean);
+            for item in sheet {
+                spread += outer_product(place(item) - mean);
             }
         }
         normal = least_axis(spread);

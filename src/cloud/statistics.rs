@@ -5,8 +5,9 @@
 
 use alloc::vec::Vec;
 
-use crate::base::allocation::{OutOfMemory, copied, filled, push, with_capacity};
+use crate::base::allocation::{OutOfMemory, filled, push, with_capacity};
 use crate::base::real::{power_of_two_below, square_root};
+use crate::base::sort::{Keyed, sort_by_numbers, sort_keyed};
 use crate::cloud::neighbors::{Nearest, Neighbor, Neighbors};
 use crate::cloud::points::Points;
 use crate::cloud::spatial::Bounds;
@@ -53,8 +54,11 @@ impl Statistics {
             return Ok(Self::default());
         }
         // Along the curve: neighbors are near each other, and each run is one region.
-        let mut sample = copied(sample)?;
-        sample.sort_unstable();
+        let mut places: Vec<Keyed> = with_capacity(sample.len())?;
+        places.extend(sample.iter().map(|&place| (u64::from(place), place)));
+        sort_keyed(&mut places);
+        let mut sample: Vec<u32> = with_capacity(places.len())?;
+        sample.extend(places.iter().map(|&(_, place)| place));
         let spacings = sampled_spacings(points, &sample)?;
         let spacing = surface::mean(&spacings);
         let longest = surface::longest(&spacings)?;
@@ -142,13 +146,13 @@ pub(crate) fn sample_of(points: &Points, bounds: &Bounds) -> Result<Vec<u32>, Ou
     for number in 0..count {
         is_wanted[inside.partition_point(|&before| before <= wanted(number)) - 1] = true;
     }
-    let mut members: Vec<(u64, u32)> = Vec::new();
+    let mut members: Vec<Keyed> = Vec::new();
     for (place, p) in points.iter().enumerate() {
         if is_wanted[shell(p)] {
             push(&mut members, (squared(p).to_bits(), place as u32))?;
         }
     }
-    members.sort_unstable();
+    sort_by_numbers(&mut members, 2, &|_, place| u64::from(place));
     // How many of the members lie before the shell of the next wanted point.
     let mut before = 0;
     let mut last = 0;

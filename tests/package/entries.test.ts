@@ -29,7 +29,7 @@ async function sizeOf(file: string): Promise<number> {
 // The shared code that follows a camera costs each adapter 500 bytes, and saves their worker 2,200.
 // Looks and scores cost 500 bytes: two options, their refusals, and the scores of an answer.
 // The choice of points (`within`) costs each 500 bytes. `follow` costs the worker client 1,800 bytes:
-// its stages, its options and their refusals. Drafts, cameras and waiting nodes cost the filters 600 to 800 bytes.
+// its stages, its options and their refusals. Cameras and waiting nodes cost the filters 600 to 800 bytes.
 // Signs of life, and workers that are replaced, cost 500 bytes; the usual `settle`, `settled` and `ready` cost 500.
 // `configure`, the ways to start a worker and the words for what fails cost 400 to 700 bytes.
 // Maps of directions cost 2,150 bytes: the shaders as text, and their test. To draw by them costs filters 2,600 bytes:
@@ -41,36 +41,36 @@ async function sizeOf(file: string): Promise<number> {
 it.each([
   ["index.js", 21_500],
   ["worker.js", 20_450],
-  ["worker/worker-thread.js", 8400],
+  ["worker/worker-thread.js", 8700],
   // A refusal that names the kind of object and the way out costs 200 bytes.
   // Events of their own, a texture for shaders of the language's first version and maps for new nodes cost 300 to 500.
-  ["three.js", 33_000],
-  ["react-three-fiber.js", 33_500],
-  ["nodes.js", 35_000],
+  ["three.js", 33_900],
+  ["react-three-fiber.js", 34_400],
+  ["nodes.js", 35_600],
   // Both filters, and the test as nodes.
-  ["three-webgpu.js", 36_050],
+  ["three-webgpu.js", 36_700],
   // Without three, and without what draws its points.
-  ["potree.js", 32_200],
+  ["potree.js", 32_900],
   // Degrees, meters and matrices cost 950 bytes.
   // Maps: the test in the shader and its texture cost 1,150. The view that it shares with the filters costs 150.
   ["deck.js", 24_300],
   // The octrees themselves cost 7.5 kB (the formats, the order of the nodes, the steps), clouds and horizons the rest.
   // With the colors of points: 15,727 bytes.
-  // The readers of all formats, without laz-perf and three. Those of cameras are 5,300 bytes of it, those of E57 and PTX and
+  // The readers of all formats, and what writes PLY and LAS. The reader of glTF and the names of foreign files cost 6,700. Those of cameras are 5,300 bytes of it, those of E57 and PTX and
   // the loading of the wasm for E57 3,100.
-  ["files.js", 32_350],
+  ["files.js", 39_500],
   // The overview, and the wasm that reads files instead of laz-perf, cost 1,100.
-  ["stream.js", 24_150],
+  ["stream.js", 24_900],
 ])("%s stays below %i bytes, gzipped", async (file, limit) => {
   const size = await sizeOf(file);
   console.log(`${file}: ${size} bytes gzipped, ${size + gzipped(wasmBytes())} with the wasm`);
   expect(size).toBeLessThan(limit);
 });
 
-it("lite.js stays below 7,800 bytes, gzipped", async () => {
+it("lite.js stays below 8,200 bytes, gzipped", async () => {
   const size = await sizeOf("lite.js");
   console.log(`lite.js: ${size} bytes gzipped, ${size + gzipped(liteBytes())} with its wasm`);
-  expect(size).toBeLessThan(7800);
+  expect(size).toBeLessThan(8200);
 });
 
 it("the README says how large the main entry is", async () => {

@@ -4,7 +4,7 @@ import { allocating } from "../base/memory.js";
 import { override } from "../base/override.js";
 import type { VisibilityMap } from "../cloud/visibility-map.js";
 import type { NodesDrawing } from "../nodes/gathered.js";
-import { withTest } from "../three/map-material.js";
+import { withTest } from "../three/map-shader.js";
 import { DIMMED } from "../three/options.js";
 import { Tile } from "./viewer.js";
 import type { Octree, OctreeNode, PotreeRenderer, PotreeShader, PotreeViewer } from "./viewer.js";
