@@ -7,14 +7,14 @@
 const PACKAGE = [
   ["base", "base/"],
   ["wasm", "(wasm|lite)/"],
-  ["follow", "follow/"],
+  ["instance", "instance/"],
   ["formats", "formats/"],
   ["query", "query/"],
-  ["instance", "instance/"],
   // Beside the folder `wasm`, whose address it holds.
   ["loader", "loader\\.ts$"],
   ["inline", "inline/"],
   ["cloud", "cloud/"],
+  ["follow", "follow/"],
   ["worker", "worker/"],
   ["files", "files/"],
   ["three", "three/"],
@@ -139,7 +139,7 @@ const forbidden = [
       "they hold no state and no class that the package has, too.",
     severity: "error",
     from: { path: "^www/" },
-    to: { path: "^src/ts/", pathNot: "^src/ts/(follow|formats)/" },
+    to: { path: "^src/ts/", pathNot: "^src/ts/formats/" },
   },
   {
     name: "the page stands without tests and scripts",

@@ -35,19 +35,19 @@ type Place = { x: number; y: number; z: number } | readonly number[];
 
 /** Every question, with a place and further options. */
 const QUESTIONS: Record<string, (cloud: AnyCloud, at: Place, more: object) => unknown> = {
-  visibleFrom: (one, at, more) => one.visibleFrom(at as Vector, more),
+  visibleFrom: (one, at, more) => one.visibleFrom(at, more),
   visibleFromDirection: (one, at, more) => one.visibleFromDirection(at as never, more),
-  visibleFromAny: (one, at, more) => one.visibleFromAny([at as Vector], more),
-  visibleFromAtLeast: (one, at, more) => one.visibleFromAtLeast(1, [at as Vector], more),
+  visibleFromAny: (one, at, more) => one.visibleFromAny([at], more),
+  visibleFromAtLeast: (one, at, more) => one.visibleFromAtLeast(1, [at], more),
   visibleFromCamera: (one, _, more) => one.visibleFromCamera(CAMERA, more),
-  sees: (one, at, more) => one.sees(at as Vector, [9, 9, 9, 0, 0, 2], more),
-  coverage: (one, at, more) => one.coverage([at as Vector], more),
+  sees: (one, at, more) => one.sees(at, [9, 9, 9, 0, 0, 2], more),
+  coverage: (one, at, more) => one.coverage([at], more),
   seenBy: (one, _, more) => one.seenBy([CAMERA], more),
-  placeViewpoints: (one, at, more) => one.placeViewpoints([at as Vector, [0, 0, -5]], more),
-  panorama: (one, at, more) => one.panorama(at as Vector, { width: 8, height: 4, ...more }),
-  visibilityMap: async (one, at, more) => (await one.visibilityMap(at as Vector, more)).hides(positions),
-  reconstruct: (one, at, more) => one.reconstruct(at as Vector, more),
-  illuminate: (one, at, more) => one.illuminate([at as Vector], more),
+  placeViewpoints: (one, at, more) => one.placeViewpoints([at, [0, 0, -5]], more),
+  panorama: (one, at, more) => one.panorama(at, { width: 8, height: 4, ...more }),
+  visibilityMap: async (one, at, more) => (await one.visibilityMap(at, more)).hides(positions),
+  reconstruct: (one, at, more) => one.reconstruct(at, more),
+  illuminate: (one, at, more) => one.illuminate([at], more),
 };
 
 it.each(Object.keys(QUESTIONS))("%s takes vectors of any class, and records without a prototype", async (name) => {

@@ -74,8 +74,9 @@ async function load(request: WorkerRequest): Promise<LoadedCloud> {
   if (blob.size === 0) throw new LoadProblem(`${name} is empty.`);
   progress("Reading", null);
   const beside = async (other: string) => {
-    if (request.kind !== "url")
+    if (request.kind !== "url") {
       throw new LoadProblem(`${name} keeps its points in ${other}. Export it as one GLB file.`);
+    }
     const found = await download(
       other,
       new URL(other.split("/").map(encodeURIComponent).join("/"), request.url).href,

@@ -101,8 +101,8 @@ const TOUCHING = 0.022;
 /** The box around a flat piece, which is parallel to two axes. */
 type Box = readonly (readonly [low: number, high: number])[];
 
-function boxOf({ at }: Surface): Box {
-  const corners = [at(0, 0), at(1, 0), at(0, 1), at(1, 1)].map(({ point }) => point);
+function boxOf(surface: Surface): Box {
+  const corners = [0, 1].flatMap((v) => [surface.at(0, v).point, surface.at(1, v).point]);
   return [0, 1, 2].map((axis) => {
     const values = corners.map((corner) => corner[axis]!);
     return [Math.min(...values), Math.max(...values)] as const;

@@ -48,7 +48,7 @@ export async function readCameras(
 /** Finite numbers of a file may make a pose that is not. */
 function checkPoses(cameras: CameraOfImage[]): CameraOfImage[] {
   for (const [i, { camera, image }] of cameras.entries()) {
-    if (Array.from(camera.worldToCamera ?? camera.cameraToWorld!).every(Number.isFinite)) continue;
+    if (Array.from(camera.worldToCamera ?? camera.cameraToWorld).every(Number.isFinite)) continue;
     throw new FormatProblem(`the pose of camera ${i + 1}${image === "" ? "" : ` (${image})`} is not finite`);
   }
   return cameras;

@@ -80,7 +80,11 @@ async function openFile(path: string | URL): Promise<NamedSource> {
     const folder = new URL(".", typeof path === "string" ? pathToFileURL(path) : path);
     const beside = async (other: string) => {
       const { source, close } = await openFile(addressOf(other, folder));
-      return wholeFile(source).finally(close);
+      try {
+        return await wholeFile(source);
+      } finally {
+        await close();
+      }
     };
     return { source: { size, read }, name, beside, close: () => handle.close() };
   } catch (cause) {

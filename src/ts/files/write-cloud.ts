@@ -39,7 +39,7 @@ export function writeCloud(
   const file = readCloudToWrite(cloud);
   const count = file.positions.length / 3;
   const indices = indicesIn(given["indices"], count);
-  if (format !== "ply" && format !== "las") {
+  if (!["ply", "las"].includes(format)) {
     throw new HprError("option", `format must be "ply" or "las", got ${describe(format)}`);
   }
   const { content, notes } = contentOf(file, format, indices);
@@ -86,8 +86,9 @@ function readCloudToWrite(cloud: unknown) {
 
 function indicesIn(given: unknown, count: number): Uint32Array {
   if (given === undefined) return Uint32Array.from({ length: count }, (_, i) => i);
-  if (!(given instanceof Uint32Array))
+  if (!(given instanceof Uint32Array)) {
     throw new HprError("option", `indices must be a Uint32Array, got ${describe(given)}`);
+  }
   const wrong = given.find((index) => index >= count);
   if (wrong !== undefined) throw new HprError("option", `indices has ${wrong}, and the cloud has ${count} points`);
   return given;

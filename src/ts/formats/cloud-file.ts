@@ -1,3 +1,4 @@
+import type { WasmModule } from "../instance/compile.js";
 import type { ChosenColumns, Up } from "./axes.js";
 import type { Crs, Unit } from "./las/crs.js";
 import type { LasSource } from "./las/details.js";
@@ -30,7 +31,7 @@ export interface Reading {
   /** Reads a file in the folder of a glTF file, in which its other files are. Without it, they cannot be read. */
   beside?: ((name: string) => Promise<Uint8Array<ArrayBuffer>>) | undefined;
   /** Compiles the wasm that reads E57 and LAZ. */
-  wasm?: (() => Promise<WebAssembly.Module>) | undefined;
+  wasm?: (() => Promise<WasmModule>) | undefined;
   signal?: AbortSignal | undefined;
   /** The progress from 0 to 1. */
   onProgress?: ((fraction: number) => void) | undefined;

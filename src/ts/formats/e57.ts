@@ -1,3 +1,4 @@
+import type { WasmModule } from "../instance/compile.js";
 import { CloudBuilder } from "./builder.js";
 import { type CloudFile, type Place, type Reading, SCAN, scanColumns } from "./cloud-file.js";
 import type { Column, NumberType } from "./numbers.js";
@@ -96,14 +97,14 @@ class E57File {
   system = "";
   scans: E57Scan[] = [];
 
-  private constructor(module: WebAssembly.Module, { source, signal }: Reading) {
+  private constructor(module: WasmModule, { source, signal }: Reading) {
     this.#wasm = new FilesWasm(module);
     this.#source = source;
     this.#signal = signal;
     this.#wasm.functions.begin(source.size);
   }
 
-  static async open(module: WebAssembly.Module, reading: Reading): Promise<E57File> {
+  static async open(module: WasmModule, reading: Reading): Promise<E57File> {
     const file = new E57File(module, reading);
     const count = await file.#run(() => file.#wasm.functions.open());
     const [system = "", ...lines] = file.#wasm.text().split("\n");

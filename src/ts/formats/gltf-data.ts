@@ -178,8 +178,9 @@ export class GltfData {
     const source = this.#bytes(packed);
     const { count, byteStride, mode, filter } = packed;
     const size = count * byteStride;
-    if (!(size > 0 && size <= 1000 * source.length))
+    if (!(size > 0 && size <= 1000 * source.length)) {
       throw new FormatProblem("a compressed bufferView promises too much");
+    }
     const { MeshoptDecoder } = await import("three/addons/libs/meshopt_decoder.module.js").catch((cause: unknown) => {
       throw new FormatProblem("it is compressed with meshopt, which needs the package three: npm install three", {
         cause,

@@ -67,7 +67,7 @@ export class Contradictions {
   }
 
   /** A line that is no point. It is left out, if such files are read. */
-  leaveOut(problem: unknown): undefined {
+  leaveOut(problem: unknown): void {
     if (!(problem instanceof FormatProblem)) throw problem;
     problem.rest = "without it";
     if (!this.#isRead) throw problem;

@@ -17,7 +17,7 @@ interface Node {
 }
 
 interface Scene extends GltfJson {
-  asset?: { version?: unknown };
+  asset?: { version?: string | number };
   scene?: number;
   scenes?: { nodes?: number[] }[];
   nodes?: Node[];
@@ -68,7 +68,7 @@ export async function readGltf(reading: Reading): Promise<CloudFile> {
     const positions = await data.numbers(attributes["POSITION"]!);
     const colors = attributes["COLOR_0"] === undefined ? undefined : await data.numbers(attributes["COLOR_0"]);
     const others = await Promise.all(
-      own.map((name) => attributes[name] ?? -1).map((at) => (at < 0 ? null : data.numbers(at))),
+      own.map(async (name) => ((attributes[name] ?? -1) < 0 ? null : data.numbers(attributes[name]!))),
     );
     for (let i = 0; i < count; i++) {
       if (!builder.takes()) continue;
@@ -113,7 +113,7 @@ function partsOf(data: Uint8Array<ArrayBuffer>): { json: Scene; rest: Uint8Array
   }
   const hasRest = isBinary && end + 8 <= data.length && view.getUint32(end + 4, true) === 0x004e4942;
   const rest = hasRest ? data.subarray(end + 8, Math.min(data.length, end + 8 + view.getUint32(end, true))) : undefined;
-  return { json: json as Scene, rest };
+  return { json, rest };
 }
 
 function tooOld(version: unknown): string {
@@ -161,7 +161,7 @@ async function verticesIn(
 async function instancesOf({ extensions }: Node, data: GltfData): Promise<readonly Matrix[]> {
   const given = extensions?.EXT_mesh_gpu_instancing?.attributes;
   if (given === undefined) return [IDENTITY];
-  const read = (name: string) => (given[name] === undefined ? undefined : data.numbers(given[name]));
+  const read = async (name: string) => (given[name] === undefined ? undefined : data.numbers(given[name]));
   const [translations, rotations, scales] = await Promise.all(["TRANSLATION", "ROTATION", "SCALE"].map(read));
   const count = Math.min(...[translations, rotations, scales].flatMap((each) => (each ? [each.count] : [])));
   const list = (numbers: Numbers | undefined, i: number, width: number) =>

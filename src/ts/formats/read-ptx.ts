@@ -114,7 +114,8 @@ function valuesOf(line: string, number: number, width: number, found: Contradict
     }
     return values;
   } catch (error) {
-    return found.leaveOut(error);
+    found.leaveOut(error);
+    return undefined;
   }
 }
 

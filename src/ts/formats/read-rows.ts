@@ -50,7 +50,8 @@ export async function readTextRows(
       const point = rows.take(text, number);
       return point && { position: point.position, values: others.map(({ field }) => point.value(field)) };
     } catch (error) {
-      return found.leaveOut(error);
+      found.leaveOut(error);
+      return undefined;
     }
   };
   for await (const { texts, number, end, places } of lines(reading.source, start, firstNumber)) {

@@ -31,7 +31,8 @@ export async function readTable(reading: Reading): Promise<CloudFile> {
       );
     } catch (error) {
       if (rows.layout === undefined) throw error;
-      return found.leaveOut(error);
+      found.leaveOut(error);
+      return undefined;
     }
   };
   let others: Other[] = [];

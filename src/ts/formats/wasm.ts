@@ -1,9 +1,10 @@
+import type { WasmModule } from "../instance/compile.js";
 import { allocating } from "./builder.js";
 import { FormatProblem } from "./problem.js";
 
 /** What files.wasm offers, which is src/files. All functions take and return numbers. */
 interface Functions {
-  memory: WebAssembly.Memory;
+  memory: { readonly buffer: ArrayBuffer };
   text_at(): number;
   text_length(): number;
   numbers_at(): number;
@@ -37,9 +38,9 @@ interface Functions {
 export const [MISSING, REFUSED] = [-1, -2];
 
 /** Compiles files.wasm, which reads E57 and LAZ. */
-export type CompileFiles = () => Promise<WebAssembly.Module>;
+export type CompileFiles = () => Promise<WasmModule>;
 
-export async function moduleOf({ wasm }: { wasm?: CompileFiles | undefined }): Promise<WebAssembly.Module> {
+export async function moduleOf({ wasm }: { wasm?: CompileFiles | undefined }): Promise<WasmModule> {
   if (wasm === undefined) throw new FormatProblem("the reader of E57 and LAZ is not here");
   return wasm();
 }
@@ -48,24 +49,23 @@ export async function moduleOf({ wasm }: { wasm?: CompileFiles | undefined }): P
 export class FilesWasm {
   readonly functions: Functions;
 
-  constructor(module: WebAssembly.Module) {
+  constructor(module: WasmModule) {
     // wasm-bindgen would keep JavaScript's values in a table, and there are none.
     const glue = { "./hpr_bg.js": { __wbindgen_init_externref_table: () => undefined } };
     this.functions = new WebAssembly.Instance(module, glue).exports as unknown as Functions;
   }
 
   text(): string {
-    const { text_at, text_length } = this.functions;
-    return new TextDecoder().decode(this.bytes(text_at(), text_length()));
+    return new TextDecoder().decode(this.bytes(this.functions.text_at(), this.functions.text_length()));
   }
 
   numbers(count: number): Float64Array<ArrayBuffer> {
     const place = this.functions.numbers_at() >>> 0;
-    return new Float64Array(this.functions.memory.buffer as ArrayBuffer, place, count);
+    return new Float64Array(this.functions.memory.buffer, place, count);
   }
 
   bytes(place: number, length: number): Uint8Array<ArrayBuffer> {
-    return new Uint8Array(this.functions.memory.buffer as ArrayBuffer, place >>> 0, length);
+    return new Uint8Array(this.functions.memory.buffer, place >>> 0, length);
   }
 
   /** Puts bytes where the next function looks for them. */

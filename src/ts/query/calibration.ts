@@ -33,13 +33,6 @@ export interface Calibration {
   readonly note?: string;
 }
 
-/** The stations: x, y, z of each, the indices of all of them, and where those of each end. */
-export interface Stations {
-  viewpoints: Float64Array<ArrayBuffer>;
-  ends: Uint32Array<ArrayBuffer>;
-  indices: Uint32Array<ArrayBuffer>;
-}
-
 /** Reads the stations of a cloud of so many indices, and the options, which look three times by default. */
 export function calibrationQuery(
   { dimension, length }: { dimension: number; length: number },

@@ -1,6 +1,5 @@
 import { describe, HprError } from "../base/errors.js";
 import { allocating } from "../base/memory.js";
-import type { Stations } from "./calibration.js";
 import { readCamera } from "./camera.js";
 import { mapNumbers, type MapNumbers } from "./map-options.js";
 import type {
@@ -48,7 +47,13 @@ export interface Questions {
   sees: { viewpoint: number[]; positions: Float64Array; settings: ViewSettings };
   autoRadius: { viewpoint: number[]; settings: ViewSettings };
   noise: object;
-  calibrate: Stations & { settings: ViewSettings };
+  /** The stations: the viewpoint of each, the indices of all of them, and where those of each end. */
+  calibrate: {
+    viewpoints: Float64Array<ArrayBuffer>;
+    ends: Uint32Array<ArrayBuffer>;
+    indices: Uint32Array<ArrayBuffer>;
+    settings: ViewSettings;
+  };
   surface: object;
   reconstruct: { viewpoint: number[]; settings: ViewSettings; maxEdge: number | undefined };
   illuminate: {

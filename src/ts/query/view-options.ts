@@ -39,7 +39,7 @@ export function viewSettings(given: object, dimension: number): ViewSettings {
   checkRows(given as Record<string, unknown>, VIEW_ROWS, dimension);
   const { looks, scores, thickness, surface = "auto", inversion, within } = given as Given;
   return {
-    ...chosenRadius(given as Given),
+    ...chosenRadius(given),
     ...(looks === undefined ? chosenInversion(inversion) : { kernel: Kernel.looks, parameter: looks }),
     scores: scores ?? false,
     thickness: typeof thickness === "number" ? thickness : AUTOMATIC,

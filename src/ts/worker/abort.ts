@@ -20,6 +20,7 @@ export async function untilAborted<T>(signal: AbortSignal | undefined, promise: 
   let forget = () => {};
   const aborted = new Promise<never>((_, reject) => {
     forget = whenAborted(signal, () => {
+      // oxlint-disable-next-line typescript/prefer-promise-reject-errors -- the caller's reason may be anything
       reject(reasonOf(signal));
     });
   });

@@ -79,6 +79,7 @@ export class RequestQueue implements GuestEvents {
       }
       // This request never waits, so it overtakes no other.
       if (options.signal?.aborted === true) {
+        // oxlint-disable-next-line typescript/prefer-promise-reject-errors -- the caller's reason may be anything
         reject(reasonOf(options.signal));
         return;
       }

@@ -20,8 +20,9 @@ export async function readOpenCv(source: Source, size: ImageSize | undefined): P
   const [fx, skew, cx, left, fy, cy, ...third] = matrix.numbers as [number, number, number, number, number, number];
   const refuse = (says: string) => lineProblem(matrix.line, says);
   if (skew !== 0 || left !== 0) throw refuse(`has ${skew || left} for the skew of camera_matrix, which must be 0`);
-  if (third.join() !== "0,0,1")
+  if (third.join() !== "0,0,1") {
     throw refuse(`has ${third.join(" ")} for the third row of camera_matrix, which must be 0 0 1`);
+  }
   const one = (name: string) => numbersOf(fields, name, [1])?.numbers[0];
   const [width, height] = [one("image_width") ?? size?.width, one("image_height") ?? size?.height];
   if (width === undefined || height === undefined) {

@@ -1,4 +1,5 @@
 // Which bytes of a LAZ file are which of its points, and their decoder.
+import type { WasmModule } from "../../instance/compile.js";
 import { type Contradictions, FormatProblem } from "../problem.js";
 import { type Source, viewOf } from "../source.js";
 import { FilesWasm } from "../wasm.js";
@@ -44,13 +45,13 @@ export function lasEndsEarly(count: number): FormatProblem {
 
 /** The decoder of one file. */
 export class LazDecoder {
-  readonly #module: WebAssembly.Module;
+  readonly #module: WasmModule;
   readonly #layout: ChunkLayout;
   readonly #version: number;
   #wasm!: FilesWasm;
 
   /** @param version that of the parts of a point, in the record of LAZ */
-  constructor(module: WebAssembly.Module, layout: ChunkLayout, version = layout.format < FIRST_LAYERED ? 2 : 3) {
+  constructor(module: WasmModule, layout: ChunkLayout, version = layout.format < FIRST_LAYERED ? 2 : 3) {
     [this.#module, this.#layout, this.#version] = [module, layout, version];
     this.#start();
   }
@@ -136,7 +137,7 @@ function recordOf({ format, rowBytes, records }: LasHeader, head: DataView) {
  * The chunks of a damaged file without a usable table are looked for one after another.
  */
 export async function openLaz(
-  module: () => Promise<WebAssembly.Module>,
+  module: () => Promise<WasmModule>,
   header: LasHeader,
   source: Source,
   head: DataView,

@@ -46,8 +46,9 @@ export function contentOf(
     field.name.toLowerCase() === "intensity" ? scaledIntensity(field, notes) : field,
   );
   const there = indices.filter((i) => [0, 1, 2].every((axis) => Number.isFinite(positions[3 * i + axis])));
-  if (there.length < indices.length)
+  if (there.length < indices.length) {
     notes.push(`${indices.length - there.length} points without a position are left out`);
+  }
   const colored = own ? [...deepColors(own), ...fields] : fields;
   return { content: { positions, colors: own ? null : (packed ?? null), fields: colored, indices: there }, notes };
 }
