@@ -149,10 +149,10 @@ mod tests {
     #[test]
     fn sheets_lie_on_two_planes_and_noise_does_not() {
         let at = |k: usize, z: f64| DVec3::new((k % 6) as f64, (k / 6) as f64 + 0.1 * z, z);
-        let mut heights = filled(33, (0.0, 0)).unwrap();
+        let mut order = filled(33, (0, 0)).unwrap();
         let mut off = |height: &dyn Fn(usize) -> f64| {
             let places: Vec<DVec3> = (0..33).map(|k| at(k, height(k))).collect();
-            off_two_planes(&places, DVec3::Z, &mut heights)
+            off_two_planes(&places, DVec3::Z, &mut order)
         };
         assert!(off(&|k| (k % 2) as f64) < 1e-9);
         assert!(off(&|k| ((k * 7) % 33) as f64 / 33.0) > 0.1);
