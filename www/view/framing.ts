@@ -44,10 +44,11 @@ export function findHome(
 ): Home {
   const upward = new Vector3(...upVector(up));
   const all = { middle: new Vector3(), radius: cloud.radius };
-  const at = (viewpoint: Viewpoint, target: Vector3) => ({
+  // The pose comes from the viewpoint, so whoever comes back to that place is in the first view again, to the last bit.
+  const at = (viewpoint: Viewpoint, target: Vector3, extent = all) => ({
     pose: { at: inLocal(cloud, viewpoint), target, up: upward },
     viewpoint,
-    extent: all,
+    extent,
   });
 
   if (view) {
@@ -64,11 +65,7 @@ export function findHome(
   const from = new Vector3(...(sample?.direction ?? FROM[up])).normalize();
   const local = from.clone().multiplyScalar(1.07 * fittingDistance(cloud, extent, from, upward, lens));
   local.add(extent.middle);
-  return {
-    pose: { at: local, target: extent.middle.clone(), up: upward },
-    viewpoint: inFile(cloud, local),
-    extent,
-  };
+  return at(inFile(cloud, local), extent.middle.clone(), extent);
 }
 
 /** A target as high as a station, in the direction of its points. The middle of a scan is often the ground under the station. */

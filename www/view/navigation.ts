@@ -115,6 +115,8 @@ export class Navigation {
     this.#camera.position.lerpVectors(from.at, to.at, done);
     this.#controls.target.lerpVectors(from.target, to.target, done);
     this.#controls.update();
+    // As in the first view: the answer is for exactly the place that was asked for.
+    if (share === 1) this.#camera.position.copy(to.at);
     this.onMove();
     return share < 1;
   }
