@@ -165,6 +165,7 @@ test("the drawer has the tools, and this device remembers it", async () => {
 
 test("at every size the page says in one sentence what it is for whom, and the picture keeps its height", async () => {
   const page = await openReady("", { ...PHONE, viewport: { width: 1440, height: 900 } }, stranger);
+  await page.locator("#divider").waitFor();
   for (const [width, height, share] of [
     [1440, 900, 0.8],
     [1280, 720, 0.75],
@@ -180,6 +181,11 @@ test("at every size the page says in one sentence what it is for whom, and the p
     expect(Math.min(x, y)).toBeGreaterThanOrEqual(0);
     expect(x + wide).toBeLessThanOrEqual(corner.x);
     expect(y + high).toBeLessThan(0.5 * top);
+    for (const words of await page.locator("#compare-note span").all()) {
+      const beside = (await words.boundingBox())!;
+      const isApart = beside.x >= x + wide || beside.y >= y + high || beside.y + beside.height <= y;
+      expect(isApart, `${width} × ${height}: ${await words.textContent()}`).toBe(true);
+    }
   }
   expect(await page.locator("#name").innerText()).toMatch(/^Hidden-point removal finds which points of a scan/);
 });
