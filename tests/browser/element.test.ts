@@ -241,7 +241,7 @@ test("a missing file, a file that is no cloud, and a file that comes too late", 
   const second = await hears(page, "a", "error", () => set(page, { src: "clouds/page.ply" }));
   expect(second).toMatchObject({
     code: "source",
-    message: expect.stringContaining("page.ply cannot be read: it does not begin like a PLY file") as string,
+    message: "page.ply cannot be read: it is XML or a page of the web, and no points.",
   });
 
   // An empty `src` names no file.

@@ -42,7 +42,9 @@ test("the page opens on the room, goes on drawing while it is asked, and every a
   expect(await frames).toBeGreaterThan(1);
   // Then the newest viewpoint is answered.
   const second = await refiltered(page, first);
-  await expect.poll(() => new URL(page.url()).search).toMatch(/^\?sample=room&compare=0\.5&view=[^&]+$/);
+  await expect
+    .poll(() => new URL(page.url()).search)
+    .toMatch(/^\?sample=room&compare=0\.5&view=[^&]+&target=1,1\.25,0$/);
   expect(second.refilters).toBeGreaterThan(first.refilters);
   expect(second.viewpoint).not.toEqual(first.viewpoint);
   expect(second.visible).not.toBe(first.visible);

@@ -3,6 +3,8 @@ import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { readCloud } from "hidden-point-removal/files";
 import { expect, test } from "vitest";
+import { ball, rows, text } from "./clouds.js";
+import { choose } from "./files.js";
 import { inNode, openReady, reached, settled } from "./support.js";
 
 test("an E57 file is opened, and a damaged one is refused", async () => {
@@ -16,21 +18,40 @@ test("an E57 file is opened, and a damaged one is refused", async () => {
   await page.waitForFunction(() => document.querySelector("#status")?.getAttribute("data-total") === "44");
 });
 
+/** A rough ball in PTX, scanned from two sides. A beam that misses the side that faces the scanner has no point. */
+function roughBall(): string {
+  const scans = [
+    [0, 0, 8],
+    [8, 0, 0],
+  ].map((at, scan) => {
+    const lines = rows(ball(1000)).map((point, i) => {
+      const beam = point.map((value, axis) => value - at[axis]!);
+      const faces = point.reduce((sum, value, axis) => sum + value * beam[axis]!, 0) < 0;
+      const error = faces ? 1 + 0.0125 * Math.sin(1e4 * Math.sin(i + 1000 * scan)) : 0;
+      return [...beam.map((value) => value * error), 0.5].join(" ");
+    });
+    const place = at.join(" ");
+    const turned = ["1 0 0 0", "0 1 0 0", "0 0 1 0", `${place} 1`];
+    return [1, lines.length, place, "1 0 0", "0 1 0", "0 0 1", ...turned, ...lines, ""].join("\n");
+  });
+  return scans.join("");
+}
+
 test("a file with stations is calibrated by them: their own points are counted, and the view has this thickness", async () => {
   const page = await openReady("?sample=bunny");
-  const fixture = join(import.meta.dirname, "fixtures/two-scans.e57");
-  await page.locator("#file").setInputFiles(fixture);
-  await page.waitForFunction(() => document.querySelector("#status")?.getAttribute("data-total") === "44");
+  const content = roughBall();
+  const { positions, stations } = await readCloud(new Blob([content]));
+  const kept = Array.from({ length: positions.length / 3 }, (_, i) => i).filter((i) =>
+    Number.isFinite(positions[3 * i]),
+  );
+  await choose(page, "ball.ptx", text(content));
+  await page.locator(`#status[data-total="${kept.length}"]`).waitFor({ state: "attached" });
   const before = await settled(page);
   const message = page.locator("#message");
   expect(await message.locator("p").textContent()).toContain("The file says where its points were measured from.");
   await message.getByRole("button", { name: "Calibrate by its stations" }).click();
   await message.getByRole("button", { name: "Undo" }).waitFor();
 
-  const { positions, stations } = await readCloud(fixture);
-  const kept = Array.from({ length: positions.length / 3 }, (_, i) => i).filter((i) =>
-    Number.isFinite(positions[3 * i]),
-  );
   const own = stations!.map(({ viewpoint, indices }) => ({
     viewpoint,
     indices: Array.from(indices, (index) => kept.indexOf(index)),
