@@ -81,7 +81,7 @@ const BEGINNINGS: readonly (readonly [begins: RegExp, says: string])[] = [
   [/^\s*<(\?xml|!DOCTYPE|html)/i, "it is XML or a page of the web, and no points"],
   [/^\s*\{[^]*"dataType"\s*:\s*"(laszip|binary|zstandard)"/, "it is the index of an EPT octree; read one LAZ file of its folder ept-data, or convert it to COPC"],
   [/^\s*\{[^]*"(hierarchy|octreeDir|firstChunkSize)"/, "it is the index of a Potree octree; openOctree of hidden-point-removal/stream reads it"],
-  [/^\s*\[\s*\{[^]*"img_name"/, "it holds the cameras of Gaussian splats, and no points; readCameras reads it"],
+  [/^\s*\[\s*\{[^]*"img_name"/, "it holds the cameras of Gaussian splats, and no points"],
   [/^\s*\{[^]*"(frames|camera_angle_x)"/, "it holds cameras, and no points; readCameras reads it"],
   [/^\s*\{[^]*"asset"[^]*"version"/, "it is a glTF file; its name must end with .gltf"],
   [/^\s*[[{]/, "it is JSON, which has no points that are read"],
