@@ -63,8 +63,7 @@ export function* judged(): Generator<Judged> {
     yield* folder(from, example, ({ name, path, count }, views) => {
       const labels = unzipped(`${path}.lab.gz`);
       const of = views.map((_, view) => labels.subarray(view * count, (view + 1) * count));
-      const shape = name.split("_")[1]!.replace(/[\d.]+$/, "");
-      const row = ROWS[name] ?? `thin shapes: ${shape}`;
+      const row = ROWS[name] ?? `thin shapes: ${name.split("_")[1]!.replace(/[\d.]+$/, "")}`;
       return { row, isMetric: from === "real", labels: of };
     });
   }
