@@ -25,6 +25,8 @@ interface Option {
   excludes?: string[];
   /** The command has it as `--name VALUE`, with this word for its value. */
   flag?: string;
+  /** What the command's help says, where it is not `short`. */
+  help?: string;
   /** One line, for tables and helps. */
   short: string;
   /** All that there is to say. */
@@ -42,12 +44,14 @@ interface Group {
 
 const TABLE = "src/options.json";
 export const OPTION_ROWS = "src/ts/query/option-rows.ts";
+const FLAGS = "src/ts/cli/flags.ts";
 const DOCUMENT = "docs/API.md";
 
 /** Writes the files that follow from the table of options, where they differ. */
 export function makeOptions(): void {
   const groups = JSON.parse(readFileSync(inRoot(TABLE), "utf8")) as Record<string, Group>;
   write(OPTION_ROWS, typescript(groups));
+  write(FLAGS, flags(groups));
   write(DOCUMENT, withTable(readFileSync(inRoot(DOCUMENT), "utf8"), groups["view"]!));
 }
 
@@ -112,6 +116,24 @@ function typeOf({ type, truth, whole, number, words = [] }: Option): string {
 /** What the reader needs of an option. */
 function rowOf({ number, words, whole, truth, call, space, needs, excludes }: Option): object {
   return { number, words, whole, truth, call, space, needs, excludes };
+}
+
+/** The command's options: a name, the word for its value, and what the help says. */
+function flags(groups: Record<string, Group>): string {
+  const lines = Object.entries(groups).flatMap(([group, { options }]) => {
+    const rows = Object.entries(options).flatMap(([name, { flag, help, short }]) =>
+      flag === undefined
+        ? []
+        : [`  [${[name, flag, help ?? plain(short)].map((text) => JSON.stringify(text)).join(", ")}],`],
+    );
+    return rows.length === 0 ? [] : [`export const ${group.toUpperCase()}_FLAGS = [`, ...rows, "] as const;", ""];
+  });
+  return [`// Made from ${TABLE} by scripts/build/options.ts.`, ...lines].join("\n");
+}
+
+/** A line of a document without its marks and links. */
+function plain(markdown: string): string {
+  return markdown.replaceAll(/ ?\(\[[^\]]*\]\([^)]*\)\)|[`"]/g, "");
 }
 
 /** The document with the table of options between its marks. */

@@ -3,12 +3,15 @@ import { describe, expect, it } from "vitest";
 
 import type { VisibilityOptions } from "hidden-point-removal";
 import { readArguments } from "../../src/ts/cli/arguments";
+import { VIEW_FLAGS } from "../../src/ts/cli/flags";
+import { init } from "../../src/ts/index";
 import { UsageProblem } from "../../src/ts/cli/values";
 import { commandIn, numpy } from "./command-support";
 import { bumpySphere, readyPackage } from "./support";
 
 const { PointCloud, cameraFromPose, intrinsicsFromFieldOfView } = await readyPackage();
 const { run, spawned, write, read, lines } = commandIn("command-views");
+await init();
 
 const COUNT = 1500;
 const sphere = bumpySphere(11, COUNT);
@@ -47,7 +50,28 @@ describe("the options of a view have the effect of the library's", () => {
     [["--inversion", "exponential:auto"], { inversion: { exponential: "auto" } }],
     [["--looks", "2"], { looks: 2 }],
     [["--looks", "3"], { looks: 3 }],
+    [["--thickness", "0"], { looks: 3, thickness: 0 }],
+    [["--thickness", "0.2"], { looks: 3, thickness: 0.2 }],
+    [["--surface", "noisy"], { looks: 3, surface: "noisy" }],
+    [["--within", "4"], { looks: 3, within: { distance: 4 } }],
+    [
+      ["--exponent", "1", "--within", "-1,-1,-1,1,1,0"],
+      {
+        exponent: 1,
+        within: {
+          box: [
+            [-1, -1, -1],
+            [1, 1, 0],
+          ],
+        },
+      },
+    ],
   ];
+  it("each of the table has a row here", () => {
+    const tried = new Set(OPTIONS.flatMap(([args]) => args.filter((word) => word.startsWith("--"))));
+    expect([...tried].sort()).toEqual(VIEW_FLAGS.map(([name]) => `--${name}`).sort());
+  });
+
   const usual = [...cloud.visibleFrom(VIEWPOINT).indices];
   it.each(OPTIONS)("%j", async (args, options) => {
     await done(...FROM, ...args, "-o", "view.idx");
@@ -225,9 +249,12 @@ describe("combinations without a meaning", () => {
     [[...FROM, ...LOOKS, "--radius", "9"], /looks and radius exclude each other/],
     [[...FROM, ...LOOKS, "--exponent", "auto"], /looks and exponent exclude each other/],
     [[...FROM, ...LOOKS, "--inversion", "power:2"], /looks and inversion exclude each other/],
-    [[...FROM, "--inversion", "power:2", "--exponent", "2"], /--exponent cannot be combined with --inversion power/],
-    [[...FROM, "--inversion", "power:2", "--radius", "opposite"], /--radius opposite cannot be combined with/],
-    [[...FROM, "--inversion", "exponential:1", "--radius", "9"], /--radius 9 cannot be combined with/],
+    [[...FROM, "--inversion", "power:2", "--exponent", "2"], /--exponent cannot be combined with inversion power/],
+    [[...FROM, "--inversion", "power:2", "--radius", "opposite"], /--radius "opposite" cannot be combined with/],
+    [
+      [...FROM, "--inversion", "exponential:1", "--radius", "9"],
+      /--radius cannot be combined with inversion exponential/,
+    ],
     [[...FROM, "--looks", "0", "--score-threshold", "0.5"], /--score-threshold needs --looks 2 or 3/],
     [[...FROM, "--exponent", "2", "--format", "scores", "-o", "never.txt"], /--format scores needs --looks 2 or 3/],
     [[...FROM, ...LOOKS, "--score-threshold", "0.5", "--format", "scores", "-o", "never.txt"], /writes all scores/],
@@ -245,11 +272,14 @@ describe("combinations without a meaning", () => {
     [[...FROM, "--format", "points", "-o", "never.idx"], /must end with \.xyz, \.txt, \.csv, \.pts/],
     [[...FROM, "--format", "faces"], /--format needs one of points, indices, mask/],
     [[...FROM, "-o", "never.pcd"], /never\.pcd must end with \.xyz, .*: points of in\.xyz are not written to \.pcd/],
-    [[...FROM, "--radius", "-3"], /--radius needs a number above 0/],
-    [[...FROM, "--inversion", "power:1"], /--inversion needs/],
+    [[...FROM, "--radius", "-3"], /--radius must be finite and positive, got -3/],
+    [[...FROM, "--inversion", "power:1"], /--inversion power must be above 1 and at most 16, got 1/],
     [[...FROM, "--inversion", "exponential"], /--inversion needs/],
-    [[...FROM, "--looks", "4"], /--looks needs 0, 2 or 3/],
-    [[...FROM, "--radius", "search"], /--radius needs a number above 0, auto or opposite, not search/],
+    [[...FROM, "--looks", "4"], /--looks must be an integer from 2 to 3, got 4/],
+    [[...FROM, "--radius", "search"], /--radius must be a number, "auto" or "opposite", got "search"/],
+    [[...FROM, "--surface", "rough"], /--surface must be "auto", "clean", "noisy" or "layered", got "rough"/],
+    [[...FROM, "--looks", "0", "--thickness", "1"], /--thickness can be given only with looks/],
+    [[...FROM, "--within", "1,2"], /--within needs a distance, or X,Y,Z,X,Y,Z/],
     [[...FROM, "--vote", "8"], /Unknown option '--vote'/],
     [[...FROM, ...LOOKS, "--score-threshold", "2"], /--score-threshold needs a number from 0 to 1/],
   ])("%j", (args, says) => {

@@ -2,25 +2,16 @@ import { parseArgs } from "node:util";
 
 import { HprError } from "../base/errors.js";
 import type { ChosenColumns } from "../formats/axes.js";
-import { viewSettings, type VisibilityOptions } from "../query/view-options.js";
+import { PointCloud } from "../index.js";
+import type { VisibilityOptions } from "../query/view-options.js";
 import { MERGES } from "../query/merge-values.js";
 import { type TransferOptions } from "../query/transfer.js";
 import { TRANSFER_ROWS } from "../query/option-rows.js";
 import { MAX_WORKERS } from "../worker/workers.js";
 import { endingOf, FORMATS } from "./formats/formats.js";
+import { TRANSFER_FLAGS, VIEW_FLAGS } from "./flags.js";
 import { chosenFormat, type OutputFormat } from "./outputs.js";
-import {
-  oneOf,
-  readColumns,
-  readCount,
-  readExponent,
-  readInversion,
-  readLooks,
-  readRadius,
-  readThreshold,
-  readViewpoint,
-  UsageProblem,
-} from "./values.js";
+import { oneOf, readColumns, readCount, readOption, readThreshold, readViewpoint, UsageProblem } from "./values.js";
 
 export interface Settings {
   input: string;
@@ -110,27 +101,25 @@ export function readArguments(args: string[]): Settings | "help" | "version" {
   };
 }
 
+const FLAGS = [...VIEW_FLAGS, ...TRANSFER_FLAGS];
+
 type Values = ReturnType<typeof parsed>["values"];
 
 function parsed(args: string[]) {
+  const texts = FLAGS.map(([name]) => [name, { type: "string" }] as const);
   try {
     return parseArgs({
       args: args.flatMap(joinedToNegative(args)),
       allowPositionals: true,
       options: {
+        ...(Object.fromEntries(texts) as Record<(typeof FLAGS)[number][0], { type: "string" }>),
         from: { type: "string" },
         viewpoints: { type: "string" },
         cameras: { type: "string" },
         images: { type: "string" },
-        merge: { type: "string" },
-        weights: { type: "string" },
         output: { type: "string", short: "o" },
         format: { type: "string" },
         coverage: { type: "boolean" },
-        radius: { type: "string" },
-        exponent: { type: "string" },
-        inversion: { type: "string" },
-        looks: { type: "string" },
         "score-threshold": { type: "string" },
         workers: { type: "string" },
         columns: { type: "string" },
@@ -149,8 +138,7 @@ function parsed(args: string[]) {
 
 /** parseArgs insists on `--from=-1,2,3`, so `--from -1,2,3` is changed to that. */
 function joinedToNegative(args: string[]) {
-  const takesNumber = /^--(from|radius|exponent|looks|score-threshold|workers)$/;
-  const isValue = (i: number) => takesNumber.test(args[i - 1] ?? "") && /^-[\d.]/.test(args[i] ?? "");
+  const isValue = (i: number) => /^--[a-z-]+$/.test(args[i - 1] ?? "") && /^-[\d.]/.test(args[i] ?? "");
   return (word: string, i: number): string[] => {
     if (isValue(i)) return [];
     return [isValue(i + 1) ? `${word}=${args[i + 1]!}` : word];
@@ -165,41 +153,27 @@ function checkInput(input: string, hasColumns: boolean): void {
   }
 }
 
-/** The options of a view. Those that exclude each other are refused. */
+/** The options of a view. What the library refuses is refused before a file is read. */
 function viewOptions(values: Values): VisibilityOptions {
-  const { radius, exponent, inversion } = values;
-  const isOperator = radius !== undefined || exponent !== undefined || inversion !== undefined;
-  const looks = values.looks === undefined ? (isOperator ? 0 : 3) : readLooks(values.looks);
-  const options: VisibilityOptions = {
-    ...(radius === undefined ? {} : { radius: readRadius(radius) }),
-    ...(exponent === undefined ? {} : { exponent: readExponent(exponent) }),
-    ...(inversion === undefined ? {} : { inversion: readInversion(inversion) }),
-    ...(looks === 0 ? {} : { looks }),
-  };
+  const given = VIEW_FLAGS.map(([name]) => name).filter((name) => values[name] !== undefined);
+  const options = Object.fromEntries(given.map((name) => [name, readOption(name, values[name]!)]));
+  if (options["exponent"] === "auto") options["exponent"] = undefined;
+  const isOperator = OPERATOR.some((name) => given.includes(name));
+  options["looks"] ??= isOperator ? 0 : 3;
+  if (options["looks"] === 0) options["looks"] = undefined;
   // `--exponent auto` says the same as no exponent, but it excludes the same options.
-  const asked = { ...options, ...(exponent === undefined ? {} : { exponent: options.exponent ?? 0 }) };
+  const asked = given.includes("exponent") ? { ...options, exponent: options["exponent"] ?? 0 } : options;
   try {
-    viewSettings(asked, 3);
+    // A distance needs no viewpoint here, and no point is too far away.
+    new PointCloud([0, 0, 0]).visibleFrom([0, 0, 0], asked);
   } catch (cause) {
-    throw cause instanceof HprError ? new UsageProblem(cause.message, { cause }) : cause;
+    throw cause instanceof HprError ? new UsageProblem(`--${cause.message}`, { cause }) : cause;
   }
-  checkInversion(asked);
   return options;
 }
 
-/** The core refuses the same, but only after the file is read. */
-function checkInversion({ radius, exponent, inversion }: VisibilityOptions): void {
-  if (inversion === undefined || inversion === "spherical") return;
-  const excluded =
-    exponent !== undefined
-      ? "--exponent"
-      : radius === "opposite" || (typeof radius === "number" && "exponential" in inversion)
-        ? `--radius ${radius}`
-        : undefined;
-  if (excluded !== undefined) {
-    throw new UsageProblem(`${excluded} cannot be combined with --inversion ${Object.keys(inversion)[0]!}`);
-  }
-}
+/** They ask for one flip. */
+const OPERATOR = ["radius", "exponent", "inversion"] as const;
 
 interface Company {
   format: OutputFormat;

@@ -2,6 +2,7 @@
 import { readFileSync } from "node:fs";
 
 import { HprError } from "../base/errors.js";
+import { init } from "../index.js";
 import { printable } from "../formats/problem.js";
 import { type Answer, ask, type Question } from "./ask.js";
 import { NAME, readArguments, type Settings } from "./arguments.js";
@@ -26,6 +27,7 @@ export async function command(args: string[], screen: Screen): Promise<number> {
   };
   let settings: Settings | "help" | "version";
   try {
+    await init();
     settings = readArguments(args);
   } catch (error) {
     if (!(error instanceof UsageProblem)) throw error;

@@ -1,3 +1,17 @@
+import { TRANSFER_FLAGS, VIEW_FLAGS } from "./flags.js";
+
+function lines(flags: readonly (readonly [name: string, value: string, about: string])[]): string {
+  return flags.map(([name, value, about]) => wrapped(`  --${name} ${value}`, about)).join("\n");
+}
+
+/** Both columns; no line is longer than 100 characters. */
+function wrapped(left: string, right: string): string {
+  return right
+    .match(/.{1,76}(?: |$)/g)!
+    .map((line, i) => (i === 0 ? left : "").padEnd(23) + line.trimEnd())
+    .join("\n");
+}
+
 export const HELP = `Usage: hidden-point-removal IN --from X,Y,Z -o OUT [options]
        hidden-point-removal IN --cameras CAMERA.json --format pixels -o OUT.csv
        hidden-point-removal IN --viewpoints PLACES.csv [--coverage] -o OUT
@@ -20,17 +34,10 @@ From where (one of the three, in the coordinates of the file):
                        transforms.json of nerfstudio; calib.txt of KITTI; YAML of OpenCV and ROS
   --images DIR         with --cameras: the folder of their images. Each point gets the color
                        that the cameras see there (needs sharp: npm install sharp)
-  --merge M            how the values of several images become one: mean (the default), median,
-                       vote (for labels) or best (the nearest camera)
-  --weights W          how much a camera counts there: distance, angle or score
+${lines(TRANSFER_FLAGS)}
 
 How (the defaults fit most clouds):
-  --radius R           R in the units of the file; or auto (the default), or opposite
-  --exponent E         R is the farthest distance times 10^E (0 or more); the larger, the
-                       more points
-  --inversion I        spherical (the default), power:G, exponential:C or exponential:auto
-  --looks N            2 or 3 looks: truer answers than one flip, about 3 times the work; 0 is one
-                       flip. The default is 3, and 0 with one of the three options above
+${lines(VIEW_FLAGS)}
   --score-threshold T  with looks: the points whose score is at least T, from 0 to 1
 
 What to write:

@@ -1,6 +1,5 @@
 // Reads the values of single arguments.
 import { type ChosenColumns, isNumber } from "../formats/axes.js";
-import type { RadiusRule, VisibilityOptions } from "../query/view-options.js";
 
 /** Wrong usage: the message says what is wrong. */
 export class UsageProblem extends Error {}
@@ -13,44 +12,30 @@ export function readViewpoint(text: string): number[] {
   return numbers;
 }
 
-export function readRadius(text: string): number | RadiusRule {
-  if (text === "auto" || text === "opposite") return text;
-  const radius = numberIn(text);
-  if (!(radius > 0 && Number.isFinite(radius))) {
-    throw new UsageProblem(`--radius needs a number above 0, auto or opposite, not ${text}`);
-  }
-  return radius;
-}
-
-/** Undefined for the automatic exponent. */
-export function readExponent(text: string): number | undefined {
-  if (text === "auto") return undefined;
+/** The value of an option of a view. What the option allows is checked by the library. */
+export function readOption(name: string, text: string): unknown {
+  if (name === "inversion") return readInversion(text);
+  if (name === "within") return readWithin(text);
   const value = numberIn(text);
-  if (!(value >= 0 && Number.isFinite(value))) {
-    throw new UsageProblem(`--exponent needs a number of 0 or more, or auto, not ${text}`);
-  }
-  return value;
+  return Number.isNaN(value) ? text : value;
 }
 
-export function readInversion(text: string): NonNullable<VisibilityOptions["inversion"]> {
-  const [kind, word = "", ...more] = text.split(":");
-  if (more.length === 0) {
-    if (text === "spherical") return "spherical";
-    if (text === "exponential:auto") return { exponential: "auto" };
-    const parameter = numberIn(word);
-    if (kind === "power" && parameter > 1 && parameter <= 16) return { power: parameter };
-    if (kind === "exponential" && parameter > 0 && parameter < Infinity) return { exponential: parameter };
+function readInversion(text: string): unknown {
+  const [kind = "", word = "", ...more] = text.split(":");
+  const parameter = word === "auto" ? word : numberIn(word);
+  if (text !== "spherical" && (more.length > 0 || Number.isNaN(parameter))) {
+    throw new UsageProblem(`--inversion needs spherical, power:G, exponential:C or exponential:auto, not ${text}`);
   }
-  throw new UsageProblem(
-    `--inversion needs spherical, power:G (above 1, at most 16), exponential:C (above 0) or exponential:auto, not ${text}`,
-  );
+  return text === "spherical" ? text : { [kind]: parameter };
 }
 
-/** 0: the operator alone. */
-export function readLooks(text: string): 0 | 2 | 3 {
-  const looks = ([0, 2, 3] as const).find((count) => String(count) === text);
-  if (looks === undefined) throw new UsageProblem(`--looks needs 0, 2 or 3, not ${text}`);
-  return looks;
+/** A distance, or a box. */
+function readWithin(text: string): unknown {
+  const numbers = text.split(",").map(numberIn);
+  if (numbers.some(Number.isNaN) || (numbers.length !== 1 && numbers.length !== 6)) {
+    throw new UsageProblem(`--within needs a distance, or X,Y,Z,X,Y,Z (two corners of a box), not ${text}`);
+  }
+  return numbers.length === 1 ? { distance: numbers[0] } : { box: [numbers.slice(0, 3), numbers.slice(3)] };
 }
 
 export function oneOf<T extends string>(option: string, text: string | undefined, words: readonly T[]): T | undefined {
