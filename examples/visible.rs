@@ -17,7 +17,7 @@ fn main() -> Result<(), Error> {
     println!("{} of {} points", visible.count(), cloud.len()); // → 4118 of 10000 points
 
     // A wider sphere keeps more points: R is the farthest distance times 10^exponent.
-    let wide = cloud.visible_from([0.0, 0.0, 5.0], &Options::with_exponent(4.0))?;
+    let wide = cloud.visible_from([0.0, 0.0, 5.0], &Options::exponent(4.0))?;
     println!("{}", wide.count() > visible.count()); // → true
 
     // A viewpoint that is no number is refused.

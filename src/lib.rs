@@ -16,6 +16,42 @@
 //! # Ok::<(), hidden_point_removal::Error>(())
 //! ```
 //!
+//! Other questions of the same cloud: three looks, what a camera sees in which pixel, how many
+//! viewpoints see each point, places beside the cloud, threads, and clouds in parts:
+//!
+//! ```
+//! # use hidden_point_removal::*;
+//! let looks = Options::looks(3).with_scores(true);
+//! let positions: Vec<[f64; 3]> = (0..900)
+//!     .map(|i| [f64::from(i % 30), f64::from(i / 30), f64::from(i % 7) / 9.0])
+//!     .collect();
+//! let cloud = PointCloud::new(&positions)?;
+//! let visible = cloud.visible_from([15.0, 15.0, 40.0], &looks)?;
+//! assert_eq!(visible.scores().len(), cloud.len());
+//!
+//! let mut camera = Camera::new(400.0, 400.0, 320.0, 240.0, 640.0, 480.0);
+//! // Column by column: where x (to the right), y (down) and z (forward) point, and the camera's place.
+//! camera.pose = Pose::CameraToWorld([
+//!     1.0, 0.0, 0.0, 0.0, /**/ 0.0, -1.0, 0.0, 0.0, /**/ 0.0, 0.0, -1.0, 0.0, /**/ 15.0, 15.0, 40.0, 1.0,
+//! ]);
+//! let view = cloud.visible_from_camera(&camera, &Options::looks(3))?;
+//! assert_eq!(view.pixels.len(), view.visibility.indices().len());
+//!
+//! let threads = cloud.with_threads(2)?;
+//! let ring = [[99.0, 0.0, 40.0], [0.0, 99.0, 40.0]];
+//! let counts = threads.coverage(&ring, &Options::default())?;
+//! assert!(counts.iter().all(|&count| count <= 2));
+//! let is_seen = cloud.sees([15.0, 15.0, 40.0], &[[15.0, 15.0, 9.0]], &Options::looks(3))?;
+//! assert_eq!(is_seen, [true]);
+//!
+//! // Each part with ids of its own; R is that of the whole cloud.
+//! let (ids, options) = ((0..900).collect::<Vec<u64>>(), Options::radius(500.0));
+//! let parts = [(&positions[..450], &ids[..450]), (&positions[450..], &ids[450..])];
+//! let merged = merge_visible_u64(&parts, [15.0, 15.0, 40.0], &options)?;
+//! assert_eq!(merged.len(), cloud.visible_from([15.0, 15.0, 40.0], &options)?.indices().len());
+//! # Ok::<(), hidden_point_removal::Error>(())
+//! ```
+//!
 //! Answers are exact for the flipped points as rounded to `f64`: every sign
 //! comes from an adaptive exact predicate, so native code, WebAssembly and
 //! `no_std` builds give the same bits.

@@ -132,7 +132,7 @@ impl Threads<'_> {
                 other: "an answer without looks",
             });
         }
-        let options = options.scores(false);
+        let options = options.with_scores(false);
         let first = self.trial(stations, &options, 0.0)?;
         if let Some(thickness) = options.thickness {
             let trial = self.trial(stations, &options, thickness)?;
@@ -185,7 +185,7 @@ impl Threads<'_> {
         options: &Options,
         thickness: f64,
     ) -> Result<Trial, Error> {
-        let options = options.thickness(thickness);
+        let options = options.with_thickness(thickness);
         let mut recall = with_capacity(stations.len())?;
         let mut others = with_capacity(stations.len())?;
         for station in stations {

@@ -24,7 +24,7 @@ use crate::view::resolved::numbered_flip;
 /// ```
 /// use hidden_point_removal::{Horizon, Options};
 ///
-/// let mut horizon = Horizon::new([0.0, 0.0, 5.0], &Options::with_radius(100.0))?;
+/// let mut horizon = Horizon::new([0.0, 0.0, 5.0], &Options::radius(100.0))?;
 /// horizon.add(&[[-0.1, -0.1, 1.0], [0.1, -0.1, 1.0], [0.0, 0.2, 1.0]])?;
 /// assert_eq!(horizon.screen(&[[0.0, 0.0, 0.0], [3.0, 0.0, 0.0]])?, [1]);
 /// assert!(horizon.hides_box([-0.01, -0.01, -1.0], [0.01, 0.01, 0.0])?);

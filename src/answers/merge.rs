@@ -28,7 +28,7 @@ use crate::view::refusals::QuestionKind;
 /// let tiles = [[[0.0, 0.0, 1.0], [1.0, 0.0, 1.0]], [[0.0, 0.0, 2.0], [1.0, 0.0, 0.0]]];
 /// let first_ids = [10, 20];
 /// let viewpoint = [0.0, 0.0, 5.0];
-/// let options = Options::with_radius(100.0);
+/// let options = Options::radius(100.0);
 ///
 /// let mut parts = Vec::new();
 /// for (tile, first_id) in tiles.iter().zip(first_ids) {

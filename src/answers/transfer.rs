@@ -154,7 +154,7 @@ impl Threads<'_> {
         how: &TransferOptions,
     ) -> Result<Transferred, Error> {
         let mut transfer = Transfer::new(self.len(), how)?;
-        let options = options.scores(how.weights == Weights::Score);
+        let options = options.with_scores(how.weights == Weights::Score);
         let mut images = images.into_iter();
         let count = cameras.len() as f64;
         let of_number = |number: f64| in_range("the number of images", number, count, count);

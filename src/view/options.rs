@@ -66,10 +66,11 @@ pub enum Exponential {
 /// The options of one visibility query. Each has a field, and a method that sets it.
 ///
 /// ```
-/// use hidden_point_removal::{Inversion, Options};
+/// use hidden_point_removal::{Options, Radius};
 ///
-/// let options = Options::with_inversion(Inversion::Looks(3)).scores(true);
+/// let options = Options::looks(3).with_scores(true);
 /// assert!(options.scores && options.within.is_none());
+/// assert_eq!(Options::exponent(3.0), Options::default().with_radius(Radius::Exponent(3.0)));
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
@@ -138,57 +139,63 @@ impl Options {
 
     /// Options with R given in the cloud's units.
     #[must_use]
-    pub const fn with_radius(radius: f64) -> Self {
-        Self::DEFAULT.radius(Radius::Absolute(radius))
+    pub const fn radius(radius: f64) -> Self {
+        Self::DEFAULT.with_radius(Radius::Absolute(radius))
     }
 
     /// Options with R = farthest distance · 10^exponent.
     #[must_use]
-    pub const fn with_exponent(exponent: f64) -> Self {
-        Self::DEFAULT.radius(Radius::Exponent(exponent))
+    pub const fn exponent(exponent: f64) -> Self {
+        Self::DEFAULT.with_radius(Radius::Exponent(exponent))
     }
 
     /// Options with another inversion than the spherical one.
     #[must_use]
-    pub const fn with_inversion(inversion: Inversion) -> Self {
-        Self::DEFAULT.inversion(inversion)
+    pub const fn inversion(inversion: Inversion) -> Self {
+        Self::DEFAULT.with_inversion(inversion)
     }
 
-    /// These options with another [`Options::radius`].
+    /// Options with 2 or 3 looks: [`Inversion::Looks`].
     #[must_use]
-    pub const fn radius(self, radius: Radius) -> Self {
+    pub const fn looks(count: usize) -> Self {
+        Self::inversion(Inversion::Looks(count))
+    }
+
+    /// Sets [`Options::radius`](field@Self::radius).
+    #[must_use]
+    pub const fn with_radius(self, radius: Radius) -> Self {
         Self { radius, ..self }
     }
 
-    /// These options with another [`Options::inversion`].
+    /// Sets [`Options::inversion`](field@Self::inversion).
     #[must_use]
-    pub const fn inversion(self, inversion: Inversion) -> Self {
+    pub const fn with_inversion(self, inversion: Inversion) -> Self {
         Self { inversion, ..self }
     }
 
-    /// These options with or without [`Options::scores`].
+    /// Sets [`Options::scores`](field@Self::scores).
     #[must_use]
-    pub const fn scores(self, scores: bool) -> Self {
+    pub const fn with_scores(self, scores: bool) -> Self {
         Self { scores, ..self }
     }
 
-    /// These options with [`Options::thickness`], by a number or none.
+    /// Sets [`Options::thickness`](field@Self::thickness), to a number or to none.
     #[must_use]
-    pub fn thickness(self, thickness: impl Into<Option<f64>>) -> Self {
+    pub fn with_thickness(self, thickness: impl Into<Option<f64>>) -> Self {
         let thickness = thickness.into();
         Self { thickness, ..self }
     }
 
-    /// These options with [`Options::surface`].
+    /// Sets [`Options::surface`](field@Self::surface).
     #[must_use]
-    pub fn surface(self, surface: impl Into<Option<Surface>>) -> Self {
+    pub fn with_surface(self, surface: impl Into<Option<Surface>>) -> Self {
         let surface = surface.into();
         Self { surface, ..self }
     }
 
-    /// These options with [`Options::within`], or without.
+    /// Sets [`Options::within`](field@Self::within), to a choice or to none.
     #[must_use]
-    pub fn within(self, within: impl Into<Option<Within>>) -> Self {
+    pub fn with_within(self, within: impl Into<Option<Within>>) -> Self {
         let within = within.into();
         Self { within, ..self }
     }

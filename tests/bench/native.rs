@@ -42,7 +42,7 @@ fn outcome<P: Position>(positions: &[P], line: &str) -> String {
     let [exponent, runs, x, y, z] = numbers[..] else {
         panic!("a task is EXPONENT RUNS x y z");
     };
-    let options = Options::with_exponent(exponent);
+    let options = Options::exponent(exponent);
     // As in measure.ts, the observer already holds the memory that a query needs.
     let (cloud, build) = timed(|| PointCloud::new(positions).expect("a valid cloud"));
     let mut observer = cloud.observer();

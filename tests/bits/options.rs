@@ -6,11 +6,11 @@ use super::clouds::Subject;
 use super::flip::distance;
 
 pub fn with_rule(radius: Radius) -> Options {
-    Options::default().radius(radius)
+    Options::default().with_radius(radius)
 }
 
 pub fn with_kernel(inversion: Inversion) -> Options {
-    Options::with_inversion(inversion)
+    Options::inversion(inversion)
 }
 
 pub fn exponential() -> Options {
@@ -26,5 +26,5 @@ pub fn exponential_of(subject: &Subject) -> Options {
 
 /// Options for several looks, with scores.
 pub fn looks(count: usize) -> Options {
-    with_kernel(Inversion::Looks(count)).scores(true)
+    with_kernel(Inversion::Looks(count)).with_scores(true)
 }

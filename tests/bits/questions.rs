@@ -18,9 +18,9 @@ const DIRECTION: [f64; 3] = [0.3, -0.7, 0.2];
 pub const QUESTIONS: &[Question] = &[
     ("auto", |s| view(s, &Options::default())),
     ("opposite", |s| view(s, &with_rule(Radius::Opposite))),
-    ("exponent_0", |s| view(s, &Options::with_exponent(0.0))),
-    ("exponent_1.7", |s| view(s, &Options::with_exponent(1.7))),
-    ("exponent_9", |s| view(s, &Options::with_exponent(9.0))),
+    ("exponent_0", |s| view(s, &Options::exponent(0.0))),
+    ("exponent_1.7", |s| view(s, &Options::exponent(1.7))),
+    ("exponent_9", |s| view(s, &Options::exponent(9.0))),
     ("power_1.3", |s| {
         view(s, &with_kernel(Inversion::Power(1.3)))
     }),
@@ -47,7 +47,7 @@ pub const QUESTIONS: &[Question] = &[
 /// The questions whose ways through the code differ most.
 pub const LARGE: &[Question] = &[
     ("auto", |s| view(s, &Options::default())),
-    ("exponent_3", |s| view(s, &Options::with_exponent(3.0))),
+    ("exponent_3", |s| view(s, &Options::exponent(3.0))),
     ("power_1.3", |s| {
         view(s, &with_kernel(Inversion::Power(1.3)))
     }),
@@ -114,7 +114,7 @@ fn merge(subject: &Subject) -> Answer {
     }
     let parts: Vec<_> = parts.iter().map(|(p, ids)| (&p[..], &ids[..])).collect();
     let mut answer = Collector::new();
-    for options in [Options::with_radius(radius), exponential_of(subject)] {
+    for options in [Options::radius(radius), exponential_of(subject)] {
         answer.indices(&expected(merge_visible(
             &parts,
             subject.viewpoint,
@@ -134,7 +134,7 @@ fn walk(subject: &Subject) -> Answer {
         let at = subject.viewpoint;
         let place = core::array::from_fn(|i| at[i] + (target[i] - at[i]) * part);
         answer.view(&expected(
-            observer.visible_from(place, &Options::with_exponent(1.0)),
+            observer.visible_from(place, &Options::exponent(1.0)),
         ));
     }
     answer.finish()

@@ -1,6 +1,6 @@
 //! The thickness at which scanners see the points that they measured.
 
-use hidden_point_removal::{Inversion, NonFinite, Options, PointCloud, Station, Within};
+use hidden_point_removal::{NonFinite, Options, PointCloud, Station, Within};
 
 use crate::common::refused;
 use crate::common::rng::Rng;
@@ -10,7 +10,7 @@ use crate::test;
 const CENTER: [f64; 3] = [0.0; 3];
 
 fn looks() -> Options {
-    Options::with_inversion(Inversion::Looks(3))
+    Options::looks(3)
 }
 
 /// All points of a sphere, seen from its center.
@@ -44,7 +44,7 @@ fn points_that_cannot_be_seen_do_not_count() {
     let skipped = PointCloud::with_non_finite(&gaps, NonFinite::Skip).unwrap();
     assert_eq!(skipped.calibrate(&station, &looks()), Ok(expected.clone()));
 
-    let part = looks().within(Within {
+    let part = looks().with_within(Within {
         distance: None,
         bounds: Some([[-1.0; 3], [1.0, 1.0, 0.9]]),
     });
@@ -85,7 +85,7 @@ fn a_thickness_that_shows_what_is_behind_is_too_large() {
     assert!(found.shown < 0.5, "{found:?}");
     // The thickness is that of a view.
     for (station, share) in asked.iter().zip(&found.recall) {
-        let options = looks().thickness(found.thickness);
+        let options = looks().with_thickness(found.thickness);
         let mask = cloud
             .visible_from(station.viewpoint, &options)
             .unwrap()
@@ -94,7 +94,9 @@ fn a_thickness_that_shows_what_is_behind_is_too_large() {
         assert_eq!(seen.count() as f64 / station.indices.len() as f64, *share);
     }
     // A given thickness is only measured, and a huge one shows all.
-    let huge = cloud.calibrate(&asked, &looks().thickness(1e3)).unwrap();
+    let huge = cloud
+        .calibrate(&asked, &looks().with_thickness(1e3))
+        .unwrap();
     assert_eq!((huge.thickness, huge.shown), (1e3, 1.0));
 }
 
@@ -107,7 +109,11 @@ fn what_does_not_fit_is_refused() {
     };
     refused("option", "index 3", ask(&[3], &looks()));
     refused("option", "without looks", ask(&[0], &Options::default()));
-    refused("option", "thickness", ask(&[0], &looks().thickness(-1.0)));
+    refused(
+        "option",
+        "thickness",
+        ask(&[0], &looks().with_thickness(-1.0)),
+    );
     assert_eq!(ask(&[], &looks()).unwrap().recall, [1.0]);
     assert!(cloud.calibrate(&[], &looks()).unwrap().recall.is_empty());
 }

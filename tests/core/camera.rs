@@ -26,7 +26,7 @@ fn borders_of_the_image_belong_to_it_above_and_on_the_left() {
         [0.5 - 1e-12, 0.125, 1.0],
     ];
     let cloud = PointCloud::new(&points).unwrap();
-    let options = Options::with_exponent(9.0);
+    let options = Options::exponent(9.0);
     let seen = cloud.visible_from_camera(&camera, &options).unwrap();
     assert_eq!(seen.visibility.indices(), [0, 2, 4, 7]);
     assert_eq!(seen.pixels[..3], [[0.0, 5.0], [5.0, 0.0], [7.5, 7.5]]);
@@ -81,7 +81,7 @@ fn cameras_that_are_none_are_refused() {
     for omega in [-0.1, 3.2, nan] {
         assert!(fov(omega).contains("from 0 to pi for FOV"));
     }
-    let small = cloud.visible_from_camera(&good, &Options::with_radius(0.5));
+    let small = cloud.visible_from_camera(&good, &Options::radius(0.5));
     let (radius, farthest) = (0.5, 1.0);
     assert_eq!(small.unwrap_err(), Error::Radius { radius, farthest });
 }
@@ -114,7 +114,7 @@ fn a_pose_is_the_same_both_ways_and_the_wrong_way_is_said() {
     let inverse = inverse.as_flattened().try_into().unwrap();
     let ask = |pose| {
         let camera = Camera { pose, ..right };
-        let options = Options::with_exponent(3.0);
+        let options = Options::exponent(3.0);
         cloud.visible_from_camera(&camera, &options).unwrap()
     };
     let seen = ask(right.pose);
@@ -152,7 +152,7 @@ fn a_rounded_pose_becomes_the_nearest_rotation() {
                 m[0], m[4], m[8], 0.0, m[1], m[5], m[9], 0.0, m[2], m[6], m[10], 0.0, x, y, z, 1.0,
             ])
         };
-        let options = Options::with_exponent(3.0);
+        let options = Options::exponent(3.0);
         let ask = |pose| {
             let camera = Camera { pose, ..right };
             let position = camera.position();
@@ -282,7 +282,7 @@ fn cameras_stand_where_viewpoints_stand() {
         distance: Some(2.0),
         bounds: None,
     });
-    for options in [Options::default(), Options::default().within(within)] {
+    for options in [Options::default(), Options::default().with_within(within)] {
         let whole = |seat: &Seat| {
             cloud
                 .visible_from(seat.position(), &options)

@@ -209,7 +209,7 @@ fn a_refused_change_changes_nothing() {
     }
     assert!(changed.cloud.append(&[[1e3; 3], [NAN; 3]]).is_err());
     changed.check(FRONT, &Options::default(), "refused");
-    let options = Options::with_exponent(2.0);
+    let options = Options::exponent(2.0);
     changed.check([0.1; 3], &options, "refused");
 }
 

@@ -1,6 +1,6 @@
 //! Many viewpoints: counts, and the greedy choice against every choice.
 
-use hidden_point_removal::{Inversion, Options, Placing, PointCloud};
+use hidden_point_removal::{Options, Placing, PointCloud};
 
 use crate::common::rng::Rng;
 use crate::common::shapes;
@@ -67,8 +67,8 @@ fn questions_that_make_no_sense_are_refused() {
         let found = cloud.place_viewpoints(&candidates, &usual, &placing);
         refused("option", "", found);
     }
-    let scores = Options::with_inversion(Inversion::Looks(2)).scores(true);
-    for options in [scores, Options::with_exponent(-1.0)] {
+    let scores = Options::looks(2).with_scores(true);
+    for options in [scores, Options::exponent(-1.0)] {
         refused("option", "", cloud.coverage(&NOWHERE, &options));
         refused("option", "", cloud.coverage(&candidates, &options));
     }

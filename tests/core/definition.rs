@@ -42,7 +42,7 @@ fn one_two_and_three_points_follow_the_same_definition() {
     );
     // In one plane with the viewpoint. The middle point lies behind the line of the others.
     let bent = [[-1.0, 0.0, 0.0], [0.0, 0.0, -9.0], [1.0, 0.0, 0.0]];
-    assert_eq!(seen(&bent, FRONT, &Options::with_exponent(0.0)), [0, 2]);
+    assert_eq!(seen(&bent, FRONT, &Options::exponent(0.0)), [0, 2]);
 }
 
 #[test]
@@ -54,7 +54,7 @@ fn points_whose_flips_round_together_share_one_answer() {
         [1.0, 0.0, 0.0],
         [-1.0, -1.0, -1.0],
     ];
-    let options = Options::with_radius(1e17);
+    let options = Options::radius(1e17);
     assert_eq!(
         flip(points[0], [0.0; 3], 1e17),
         flip(points[1], [0.0; 3], 1e17)
@@ -81,15 +81,9 @@ fn a_point_at_the_viewpoint_is_visible_and_hides_nothing() {
 fn a_distance_that_vanishes_in_f64_counts_as_at_the_viewpoint() {
     // 1e-170 squared is 0 in f64: the computed distance decides.
     let points = [[1e-170, 0.0, 0.0], [1.0, 0.0, 0.0], [2.0, 0.0, 0.0]];
-    assert_eq!(
-        seen(&points, [0.0; 3], &Options::with_exponent(1.0)),
-        [0, 1]
-    );
+    assert_eq!(seen(&points, [0.0; 3], &Options::exponent(1.0)), [0, 1]);
     // d > 0, but (2R − d)/d overflows. The point counts as at the viewpoint, too.
     let points = [[1e-150, 0.0, 0.0], [1e150, 0.0, 0.0], [1e149, 0.0, 0.0]];
     assert!(flip(points[0], [0.0; 3], 1e160).is_none());
-    assert_eq!(
-        seen(&points, [0.0; 3], &Options::with_radius(1e160)),
-        [0, 2]
-    );
+    assert_eq!(seen(&points, [0.0; 3], &Options::radius(1e160)), [0, 2]);
 }

@@ -13,14 +13,14 @@ fn along(points: &[[f64; 3]], direction: [f64; 3], options: &Options) -> Visibil
 }
 
 fn exponential(scale: f64) -> Options {
-    Options::with_inversion(Inversion::Exponential(Exponential::Scale(scale)))
+    Options::inversion(Inversion::Exponential(Exponential::Scale(scale)))
 }
 
 #[test]
 fn an_empty_cloud_refuses_the_radii_that_any_cloud_refuses() {
     let empty = PointCloud::new::<[f64; 3]>(&[]).unwrap();
     let ask = |radius| {
-        let options = Options::default().radius(radius);
+        let options = Options::default().with_radius(radius);
         empty.visible_from_direction([0.0, 0.0, 1.0], &options)
     };
     for radius in [f64::NAN, 0.0, -1.0, f64::INFINITY] {
@@ -43,7 +43,7 @@ fn it_is_the_limit_of_receding_viewpoints() {
         let direction = rng.direction();
         let apart = |times: f64, options: &Options, a: f64| {
             let viewpoint = direction.map(|x| -x * times);
-            let by_radius = Options::with_radius(a * times * times);
+            let by_radius = Options::radius(a * times * times);
             let far = if options.inversion == Inversion::Spherical {
                 ask(&points, viewpoint, &by_radius)
             } else {
@@ -91,22 +91,14 @@ fn a_number_fixes_the_bend_from_one_diagonal_away() {
     let automatic = along(&points, direction, &Options::default());
     assert!(automatic.radius() > 0.0 && automatic.exponent() > 0.0);
     assert_eq!(automatic.evaluations(), 0);
-    let again = along(
-        &points,
-        direction,
-        &Options::with_radius(automatic.radius()),
-    );
+    let again = along(&points, direction, &Options::radius(automatic.radius()));
     assert_eq!(again.indices(), automatic.indices());
-    let again = along(
-        &points,
-        direction,
-        &Options::with_exponent(automatic.exponent()),
-    );
+    let again = along(&points, direction, &Options::exponent(automatic.exponent()));
     assert_eq!(again.indices(), automatic.indices());
     let more = along(
         &points,
         direction,
-        &Options::with_exponent(automatic.exponent() + 1.0),
+        &Options::exponent(automatic.exponent() + 1.0),
     );
     assert!(more.count() > automatic.count());
     let scale = 0.5 / automatic_bend(&points);
@@ -148,14 +140,10 @@ fn what_does_not_fit_is_refused() {
     for direction in [[0.0; 3], [f64::NAN, 1.0, 0.0], [f64::INFINITY, 0.0, 0.0]] {
         refused("viewpoint", "direction", ask(direction, Options::default()));
     }
-    let by = |radius| Options::default().radius(radius);
+    let by = |radius| Options::default().with_radius(radius);
     for (code, words, options) in [
         ("option", "cannot be combined", by(Radius::Opposite)),
-        (
-            "option",
-            "power",
-            Options::with_inversion(Inversion::Power(2.0)),
-        ),
+        ("option", "power", Options::inversion(Inversion::Power(2.0))),
         ("radius", "smaller", by(Radius::Absolute(0.1))),
         ("option", "exponent", by(Radius::Exponent(-0.1))),
     ] {

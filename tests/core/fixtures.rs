@@ -9,7 +9,7 @@ use crate::common::{ask, indices_of, oracle, sectors};
 use crate::test;
 
 fn check(points: &[[f64; 3]], radius: f64, expected: &[u32]) {
-    let answer = ask(points, [0.0; 3], &Options::with_radius(radius));
+    let answer = ask(points, [0.0; 3], &Options::radius(radius));
     assert_eq!(answer.indices(), expected);
     assert_eq!(
         indices_of(&oracle::visible(points, [0.0; 3], radius)),
@@ -107,7 +107,7 @@ fn walls(n: usize) -> Points {
 #[test]
 fn divided_views_of_a_room_from_a_place_in_a_wall() {
     let cloud = PointCloud::new(&walls(3000)).unwrap();
-    let (viewpoint, options) = ([2.0, 0.0, 1.5], Options::with_exponent(3.0));
+    let (viewpoint, options) = ([2.0, 0.0, 1.5], Options::exponent(3.0));
     let whole = cloud.visible_from(viewpoint, &options).unwrap();
     assert_eq!(whole.count(), 2795);
     for count in [2, 3, 4, 8, 14] {

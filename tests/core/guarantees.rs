@@ -34,7 +34,7 @@ fn lemma_4_3_pits_are_seen_up_to_the_permissible_curvature() {
         for times in [1.5, 4.0, 30.0] {
             for psi in [FRAC_PI_2, 1.2, 0.8, 0.5, 2.0] {
                 let radius = times * r;
-                let options = Options::with_radius(radius);
+                let options = Options::radius(radius);
                 // cot β = r·cot ψ/(2R − r): the angle of the hull at the flipped point.
                 let beta = libm::atan2(2.0 * radius - r, r * libm::cos(psi) / libm::sin(psi));
                 let bound = permissible_curvature(radius, r, beta).unwrap();
@@ -79,7 +79,7 @@ fn the_permissible_curvature_has_no_limits_of_size() {
 fn other_inversions_have_their_own_curvature() {
     for r in [0.5, 2.0] {
         for gamma in [1.1, 2.0, 5.0] {
-            let options = Options::with_inversion(Inversion::Power(gamma));
+            let options = Options::inversion(Inversion::Power(gamma));
             let bound = gamma / (gamma - 1.0) / r;
             let seen = |k| middle_is_visible(r, FRAC_PI_2, k, &options);
             assert!(
@@ -89,7 +89,7 @@ fn other_inversions_have_their_own_curvature() {
         }
         for c in [0.01, 0.3, 2.0] {
             let scale = Exponential::Scale(c);
-            let options = Options::with_inversion(Inversion::Exponential(scale));
+            let options = Options::inversion(Inversion::Exponential(scale));
             let bound = 1.0 / c + 1.0 / r;
             let seen = |k| middle_is_visible(r, FRAC_PI_2, k, &options);
             assert!(
@@ -109,7 +109,7 @@ fn the_bound_on_the_radius_hides_the_bottom_between_two_samples() {
             [spacing, far - thickness],
             [-spacing, far - thickness],
         ];
-        let seen = |radius: f64| planar(&points, &Options::with_radius(radius))[0] == 1;
+        let seen = |radius: f64| planar(&points, &Options::radius(radius))[0] == 1;
         // The bound holds to first order in d/r and ρ/r.
         let slack = 3.0 * thickness / far + 1e-3;
         assert!(!seen(bound * (1.0 - slack)) && seen(bound * (1.0 + slack)));

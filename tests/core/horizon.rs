@@ -17,12 +17,12 @@ fn numbered(rng: &mut Rng, scene: &Scene) -> Option<Options> {
         return None;
     }
     Some(match rng.below(6) {
-        0 => Options::with_radius(farthest),
-        1 => Options::with_radius(2.0 * farthest),
-        2 => Options::with_radius(1000.0 * farthest),
-        3 => Options::with_radius(farthest).inversion(Inversion::Power(2.0)),
-        4 => Options::with_inversion(Inversion::Exponential(Exponential::Scale(0.3 * farthest))),
-        _ => Options::with_inversion(Inversion::Exponential(Exponential::Scale(1e-3 * farthest))),
+        0 => Options::radius(farthest),
+        1 => Options::radius(2.0 * farthest),
+        2 => Options::radius(1000.0 * farthest),
+        3 => Options::radius(farthest).with_inversion(Inversion::Power(2.0)),
+        4 => Options::inversion(Inversion::Exponential(Exponential::Scale(0.3 * farthest))),
+        _ => Options::inversion(Inversion::Exponential(Exponential::Scale(1e-3 * farthest))),
     })
 }
 
@@ -69,7 +69,7 @@ fn screening_before_a_merge_changes_no_answer() {
     let mut rng = Rng::new(3);
     let points = shapes::room(&mut rng, 3000);
     for viewpoint in [[0.3, 0.2, 1.2], [4.0, 0.0, 1.5], [9.0, 2.0, 4.0]] {
-        let options = Options::with_radius(300.0);
+        let options = Options::radius(300.0);
         let whole = PointCloud::new(&points).unwrap();
         let whole = whole.visible_from(viewpoint, &options).unwrap();
         let sample: Vec<_> = points.iter().step_by(50).copied().collect();
@@ -87,7 +87,7 @@ fn screening_before_a_merge_changes_no_answer() {
 fn the_visible_points_alone_hide_as_much() {
     let mut rng = Rng::new(4);
     let points = shapes::bumpy(&mut rng, 2000);
-    let options = Options::with_inversion(Inversion::Exponential(Exponential::Scale(0.01)));
+    let options = Options::inversion(Inversion::Exponential(Exponential::Scale(0.01)));
     let viewpoint = [2.0, 1.0, 0.5];
     let mut horizon = Horizon::new(viewpoint, &options).unwrap();
     horizon.add(&points[..500]).unwrap();
@@ -118,7 +118,7 @@ fn boxes_beside_the_viewpoint_are_never_hidden() {
     let mut rng = Rng::new(5);
     let points = shapes::sphere(&mut rng, 2000);
     let viewpoint = [0.1, 0.0, 0.0];
-    let mut horizon = Horizon::new(viewpoint, &Options::with_radius(100.0)).unwrap();
+    let mut horizon = Horizon::new(viewpoint, &Options::radius(100.0)).unwrap();
     assert!(
         !horizon.hides_box([5.0; 3], [6.0; 3]).unwrap(),
         "nothing hides"
@@ -143,7 +143,7 @@ fn boxes_beside_the_viewpoint_are_never_hidden() {
 
 #[test]
 fn refusals_name_the_cause_and_change_nothing() {
-    let options = Options::with_radius(3.0);
+    let options = Options::radius(3.0);
     let new = |viewpoint, options: &Options| Horizon::new(viewpoint, options).map(|_| ());
     let merging = "merging needs the radius";
     refused("option", merging, new([0.0; 3], &Options::default()));

@@ -48,7 +48,7 @@ fn clouds_in_coordinates_of_a_subspace_have_the_bits_of_three_dimensions() {
             (far, Options::default()),
             (
                 far,
-                Options::with_inversion(Inversion::Exponential(Exponential::Auto)),
+                Options::inversion(Inversion::Exponential(Exponential::Auto)),
             ),
         ] {
             let flat = ask(&scene.points, viewpoint, &options);
@@ -139,7 +139,7 @@ fn every_rule_inversion_and_union_is_there() {
         Inversion::Exponential(Exponential::Auto),
     ] {
         let answer = cloud
-            .visible_from(&viewpoint, &Options::with_inversion(inversion))
+            .visible_from(&viewpoint, &Options::inversion(inversion))
             .unwrap();
         assert!(answer.count() > 20 && answer.count() < 200);
     }
@@ -176,13 +176,13 @@ fn what_does_not_fit_is_refused() {
         refused("viewpoint", "must be 4 finite numbers", found);
     }
     refused("option", "index 3", cloud.remove(&[3]));
-    let within = options.within(Within {
+    let within = options.with_within(Within {
         distance: Some(1.0),
         bounds: None,
     });
     for (code, words, options) in [
         ("option", "within needs a cloud of dimension 3", within),
-        ("radius", "smaller", Options::with_radius(0.1)),
+        ("radius", "smaller", Options::radius(0.1)),
     ] {
         refused(code, words, cloud.visible_from(&[0.0; 4], &options));
     }

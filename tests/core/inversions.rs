@@ -10,11 +10,11 @@ use crate::test;
 const FRONT: [f64; 3] = [0.0, 0.0, 3.0];
 
 fn power(gamma: f64) -> Options {
-    Options::with_inversion(Inversion::Power(gamma))
+    Options::inversion(Inversion::Power(gamma))
 }
 
 fn exponential(scale: f64) -> Options {
-    Options::with_inversion(Inversion::Exponential(Exponential::Scale(scale)))
+    Options::inversion(Inversion::Exponential(Exponential::Scale(scale)))
 }
 
 const AUTOMATIC: Inversion = Inversion::Exponential(Exponential::Auto);
@@ -29,7 +29,7 @@ fn answers_say_which_inversion_they_used() {
         (answer.radius(), answer.exponent(), answer.evaluations()),
         (far, 0.0, 0)
     );
-    let unit = power(2.5).radius(Radius::Absolute(4.0 * far));
+    let unit = power(2.5).with_radius(Radius::Absolute(4.0 * far));
     let scaled = ask(&points, FRONT, &unit);
     assert_eq!(scaled.radius(), 4.0 * far);
     assert_eq!(scaled.indices(), answer.indices());
@@ -45,7 +45,7 @@ fn answers_say_which_inversion_they_used() {
 fn the_automatic_scale_belongs_to_the_cloud() {
     let mut rng = Rng::new(4);
     let mut points = shapes::bumpy(&mut rng, 700);
-    let options = Options::with_inversion(AUTOMATIC);
+    let options = Options::inversion(AUTOMATIC);
     let near = ask(&points, FRONT, &options);
     let far = ask(&points, [90.0, 20.0, 7.0], &options);
     assert_eq!(near.inversion(), far.inversion());
@@ -76,15 +76,19 @@ fn what_does_not_fit_is_refused() {
         refused("option", "exponential", ask(exponential(scale)));
     }
     for inversion in [Inversion::Power(2.0), AUTOMATIC] {
-        let with = |radius| ask(Options::with_inversion(inversion).radius(radius));
+        let with = |radius| ask(Options::inversion(inversion).with_radius(radius));
         refused("option", "exponent", with(Radius::Exponent(2.0)));
         refused("option", "opposite", with(Radius::Opposite));
     }
-    let automatic = Options::with_inversion(AUTOMATIC);
+    let automatic = Options::inversion(AUTOMATIC);
     refused(
         "option",
         "radius",
-        ask(automatic.radius(Radius::Absolute(100.0))),
+        ask(automatic.with_radius(Radius::Absolute(100.0))),
     );
-    refused("radius", "", ask(power(2.0).radius(Radius::Absolute(0.5))));
+    refused(
+        "radius",
+        "",
+        ask(power(2.0).with_radius(Radius::Absolute(0.5))),
+    );
 }

@@ -14,7 +14,7 @@ use crate::test;
 const FRONT: [f64; 3] = [0.0, 0.0, 5.0];
 
 fn looks(count: usize) -> Options {
-    Options::with_inversion(Inversion::Looks(count)).scores(true)
+    Options::looks(count).with_scores(true)
 }
 
 /// Small, degenerate and larger scenes of every kind, and both numbers of looks.
@@ -159,7 +159,7 @@ fn scores_rise_with_the_answer() {
         mean(false)
     );
     // Scores are computed only on request, and they change no label.
-    let without = Options::with_inversion(Inversion::Looks(3));
+    let without = Options::looks(3);
     let plain = ask(&points, FRONT, &without);
     assert!(plain.scores().is_empty());
     assert_eq!(plain.indices(), answer.indices());
@@ -221,7 +221,7 @@ fn in_one_plane_with_the_viewpoint_each_look_sees_what_its_flat_hull_does() {
     let mut expected = vec![0; points.len()];
     for &scale in answer.looks() {
         let inversion = Inversion::Exponential(hidden_point_removal::Exponential::Scale(scale));
-        let seen = ask(&points, viewpoint, &Options::with_inversion(inversion)).mask();
+        let seen = ask(&points, viewpoint, &Options::inversion(inversion)).mask();
         for (expected, seen) in expected.iter_mut().zip(seen) {
             *expected |= seen;
         }
@@ -237,7 +237,7 @@ fn in_one_plane_with_the_viewpoint_each_look_sees_what_its_flat_hull_does() {
 fn each_index_has_a_score_if_no_point_takes_part() {
     let points: Vec<[f64; 3]> = (0..49).map(|i| on_a_grid((i, [0.0; 3]))).collect();
     let mut cloud = PointCloud::new(&points).unwrap();
-    let options = looks(3).within(Within {
+    let options = looks(3).with_within(Within {
         distance: Some(0.0),
         bounds: None,
     });
@@ -272,7 +272,7 @@ fn skipped_and_removed_points_have_no_score() {
 fn what_needs_one_hull_refuses_looks() {
     let points = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
     let cloud = PointCloud::new(&points).unwrap();
-    let options = Options::with_inversion(Inversion::Looks(3));
+    let options = Options::looks(3);
     let view = |options: Options| cloud.visible_from(FRONT, &options);
     let with = |other: &str| format!("looks cannot be combined with {other}");
     let mesh = cloud.reconstruct(FRONT, &options, None);
@@ -288,7 +288,7 @@ fn what_needs_one_hull_refuses_looks() {
         (Radius::Absolute(9.0), "radius"),
         (Radius::Exponent(2.0), "exponent"),
     ] {
-        let options = options.radius(radius);
+        let options = options.with_radius(radius);
         refused("option", &with(name), view(options));
         refused(
             "option",
@@ -300,7 +300,7 @@ fn what_needs_one_hull_refuses_looks() {
         refused("option", "looks must be from", view(looks(count)));
     }
     let without = |other: &str| format!("scores cannot be combined with {other}");
-    let scores = Options::default().scores(true);
+    let scores = Options::default().with_scores(true);
     refused("option", &without("an answer without looks"), view(scores));
     let several = cloud.visible_from_any(&[FRONT], &looks(3));
     refused("option", &without("several viewpoints"), several);

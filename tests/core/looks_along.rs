@@ -1,13 +1,13 @@
 //! Several looks along a direction: the limit of looks from farther and farther away.
 
-use hidden_point_removal::{Inversion, Options, PointCloud, Radius, Visibility};
+use hidden_point_removal::{Options, PointCloud, Radius, Visibility};
 
 use crate::common::rng::Rng;
 use crate::common::{ask, refused, shapes};
 use crate::test;
 
 fn looks(count: usize) -> Options {
-    Options::with_inversion(Inversion::Looks(count)).scores(true)
+    Options::looks(count).with_scores(true)
 }
 
 fn along(points: &[[f64; 3]], direction: [f64; 3], options: &Options) -> Visibility {
@@ -99,8 +99,8 @@ fn options_that_do_not_go_with_looks_do_not_go_with_directions_either() {
     let cloud = PointCloud::new(&points).unwrap();
     let direction = [0.3, -0.5, 0.8];
     for wrong in [
-        looks(3).radius(Radius::Exponent(2.0)),
-        Options::with_inversion(Inversion::Looks(4)),
+        looks(3).with_radius(Radius::Exponent(2.0)),
+        Options::looks(4),
     ] {
         refused(
             "option",

@@ -1,12 +1,12 @@
 //! Looks at what a simulated scanner measures (`common/scanner`). The truth is that of the surface.
 
-use hidden_point_removal::{Inversion, Options, PointCloud};
+use hidden_point_removal::{Options, PointCloud};
 
 use crate::common::rng::Rng;
 use crate::common::scanner::{Hall, Measured, Place, Scanner, fused};
 use crate::test;
 
-const LOOKS: Options = Options::with_inversion(Inversion::Looks(3));
+const LOOKS: Options = Options::looks(3);
 const LASER: Scanner = Scanner {
     rings: 90,
     columns: 360,
@@ -57,7 +57,7 @@ fn a_scanner_sees_its_own_points() {
         let station = [0.0, -0.5, 0.0];
         let points = scanner.scan(station, &mut Rng::new(1));
         let [now, _, _] = wrong(&points, station, &LOOKS);
-        let [before, _, _] = wrong(&points, station, &LOOKS.thickness(0.0));
+        let [before, _, _] = wrong(&points, station, &LOOKS.with_thickness(0.0));
         assert!(now < 1.0 && now < before, "{name}: {now} {before}");
     }
 }
@@ -115,7 +115,7 @@ fn registered_scans_are_one_surface() {
         let points = fused(points, voxel);
         let viewpoint = [1.2, -2.0, 0.4];
         let [now, shown, lost] = wrong(&points, viewpoint, &LOOKS);
-        let [before, _, _] = wrong(&points, viewpoint, &LOOKS.thickness(0.0));
+        let [before, _, _] = wrong(&points, viewpoint, &LOOKS.with_thickness(0.0));
         assert!(
             now < 3.0 && shown < 9.0 && lost < 3.0,
             "{voxel}: {shown} {lost}"

@@ -1,6 +1,6 @@
 //! Looks at measured surfaces: noise, layers of registered scans, spacing that grows with range.
 
-use hidden_point_removal::{Inversion, Options, PointCloud, Radius, Visibility};
+use hidden_point_removal::{Options, PointCloud, Radius, Visibility};
 
 use crate::common::refused;
 use crate::common::rng::Rng;
@@ -8,10 +8,10 @@ use crate::test;
 
 type Place = [f64; 3];
 
-const LOOKS: Options = Options::with_inversion(Inversion::Looks(3));
+const LOOKS: Options = Options::looks(3);
 
 fn thick(thickness: f64) -> Options {
-    LOOKS.thickness(thickness)
+    LOOKS.with_thickness(thickness)
 }
 
 /// A normal number, as a sum of uniform ones.
@@ -256,7 +256,7 @@ fn neither_order_nor_duplicates_nor_slices_nor_scale_change_a_bit() {
     let (layers, _) = room(5);
     for points in [layers, sphere(6000, 0.02), scan()] {
         let cloud = PointCloud::new(&points).unwrap();
-        let options = LOOKS.scores(true);
+        let options = LOOKS.with_scores(true);
         let viewpoint = [0.0, 0.0, 0.1];
         let seen = cloud.visible_from(viewpoint, &options).unwrap();
 
@@ -347,7 +347,7 @@ fn a_thickness_needs_looks_and_a_number() {
     refused(
         "option",
         without_looks,
-        ask(&Options::default().thickness(0.1)),
+        ask(&Options::default().with_thickness(0.1)),
     );
     for wrong in [-1e-9, f64::NAN, f64::INFINITY] {
         refused("option", "thickness", ask(&thick(wrong)));

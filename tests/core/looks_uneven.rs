@@ -2,7 +2,7 @@
 //! corners of a coarse mesh.
 
 use core::f64::consts::PI;
-use hidden_point_removal::{Inversion, Options, PointCloud, Visibility};
+use hidden_point_removal::{Options, PointCloud, Visibility};
 
 use crate::test;
 
@@ -38,7 +38,7 @@ fn long_triangles_hide_where_most_triangles_are_long() {
     let cloud = PointCloud::new(&points).unwrap();
     for towards in [[0.6, 0.0, 0.8], [0.96, 0.28, 0.0], [0.0, -0.28, 0.96]] {
         for count in [2, 3] {
-            let options = Options::with_inversion(Inversion::Looks(count));
+            let options = Options::looks(count);
             for distance in [1.8, 5.0] {
                 let viewpoint = towards.map(|x: f64| x * distance);
                 let seen = cloud.visible_from(viewpoint, &options).unwrap();
@@ -60,7 +60,7 @@ fn long_triangles_hide_where_most_triangles_are_long() {
 fn the_scales_are_larger_where_points_leave_much_empty() {
     let scale = |points: &[[f64; 3]]| {
         let cloud = PointCloud::new(points).unwrap();
-        let options = Options::with_inversion(Inversion::Looks(3));
+        let options = Options::looks(3);
         let seen = cloud.visible_from([3.0, 5.0, 9.0], &options).unwrap();
         let [tight, usual, loose] = *seen.looks() else {
             panic!("three looks have three scales")

@@ -51,7 +51,7 @@ fn a_map_hides_no_visible_point() {
             for inversion in kernels {
                 let options = match inversion {
                     Inversion::Spherical => scene.options,
-                    inversion => Options::with_inversion(inversion),
+                    inversion => Options::inversion(inversion),
                 };
                 for map in [small(), MapOptions::default()] {
                     let Ok(seen) = cloud.visible_from(scene.viewpoint, &options) else {
@@ -75,7 +75,7 @@ fn a_map_hides_no_visible_point() {
 fn a_map_that_follows_a_viewpoint_hides_most() {
     let points = shapes::bumpy(&mut Rng::new(5), 40_000);
     let cloud = PointCloud::new(&points).unwrap();
-    let options = Options::with_exponent(3.0);
+    let options = Options::exponent(3.0);
     let map = MapOptions {
         points: 8000,
         ..MapOptions::default()
@@ -120,7 +120,7 @@ fn where_a_map_knows_nothing_no_distance_is_hidden() {
         .filter(|p| p[2] > 0.5 || p[0] > 0.8)
         .collect();
     let cloud = PointCloud::new(&points).unwrap();
-    let (from, options) = ([0.0, 0.0, 4.0], Options::with_exponent(3.0));
+    let (from, options) = ([0.0, 0.0, 4.0], Options::exponent(3.0));
     let map = cloud.visibility_map(from, &options, &small()).unwrap();
     let mut rng = Rng::new(4);
     let mut open = 0;
@@ -142,7 +142,7 @@ fn a_map_towards_some_directions_is_of_these() {
     let points = shapes::room(&mut Rng::new(9), 30_000);
     let cloud = PointCloud::new(&points).unwrap();
     let viewpoint = [-2.0, -1.5, 0.1];
-    let options = Options::with_exponent(2.5);
+    let options = Options::exponent(2.5);
     let seen = cloud.visible_from(viewpoint, &options).unwrap();
     let ahead = |p: &[f64; 3]| {
         let v: Vec<f64> = (0..3).map(|axis| p[axis] - viewpoint[axis]).collect();
@@ -183,7 +183,7 @@ fn wrong_maps_are_refused() {
     assert_eq!(refused(MapOptions { towards, ..map }), "viewpoint");
     let origin = Some([f64::NAN; 3]);
     assert_eq!(refused(MapOptions { origin, ..map }), "viewpoint");
-    let opposite = Options::default().radius(Radius::Opposite);
+    let opposite = Options::default().with_radius(Radius::Opposite);
     let made = cloud.visibility_map([0.0; 3], &opposite, &map);
     assert!(matches!(made, Err(Error::Excludes { .. })));
 }

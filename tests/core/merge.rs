@@ -27,7 +27,7 @@ fn merge<P: Position>(
 
 #[test]
 fn equal_points_share_one_answer_and_equal_ids_come_once() {
-    let options = Options::with_radius(100.0);
+    let options = Options::radius(100.0);
     let [near, far] = [[0.0f32, 0.0, 1.0], [0.0, 0.0, 0.0]];
     let parts = [
         (vec![near, far], vec![9, 8]),
@@ -45,9 +45,9 @@ fn what_cannot_be_merged_is_refused() {
     let part = || (points.clone(), (0..20).collect::<Vec<u32>>());
     for options in [
         Options::default(),
-        Options::with_exponent(3.0),
-        Options::with_inversion(Inversion::Power(1.7)),
-        Options::with_inversion(Inversion::Exponential(Exponential::Auto)),
+        Options::exponent(3.0),
+        Options::inversion(Inversion::Power(1.7)),
+        Options::inversion(Inversion::Exponential(Exponential::Auto)),
     ] {
         refused(
             "option",
@@ -72,16 +72,16 @@ fn what_cannot_be_merged_is_refused() {
             "the first at index 20",
         ),
     ] {
-        let found = merge(&[part(), second], FRONT, &Options::with_radius(100.0));
+        let found = merge(&[part(), second], FRONT, &Options::radius(100.0));
         refused(code, words, found);
     }
-    let nowhere = merge(&[part()], [f64::NAN; 3], &Options::with_radius(100.0));
+    let nowhere = merge(&[part()], [f64::NAN; 3], &Options::radius(100.0));
     refused("viewpoint", "", nowhere);
     for bad in [f64::NAN, f64::INFINITY, 0.0, -1.0] {
         refused(
             "radius",
             "",
-            merge::<[f64; 3]>(&[], FRONT, &Options::with_radius(bad)),
+            merge::<[f64; 3]>(&[], FRONT, &Options::radius(bad)),
         );
     }
 }
@@ -90,7 +90,7 @@ fn what_cannot_be_merged_is_refused() {
 fn ids_beyond_32_bits_come_back_ascending_and_once() {
     let mut rng = Rng::new(11);
     let points = shapes::bumpy(&mut rng, 600);
-    let options = Options::with_radius(80.0);
+    let options = Options::radius(80.0);
     let whole = ask(&points, FRONT, &options);
     let id = |index: usize| (1u64 << 40) * (index as u64 % 5) + index as u64;
     let mut expected: Vec<u64> = whole.indices().iter().map(|&k| id(k as usize)).collect();

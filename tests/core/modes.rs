@@ -1,7 +1,7 @@
 //! What the survey takes a cloud for, and how well its views are then, in both shares: thin shapes are not noisy,
 //! and scans are not clean. Everything is made of boxes, so the truth is a ray among boxes.
 
-use hidden_point_removal::{Inversion, Options, PointCloud, Surface};
+use hidden_point_removal::{Options, PointCloud, Surface};
 
 use crate::common::rng::Rng;
 use crate::test;
@@ -10,7 +10,7 @@ type Place = [f64; 3];
 /// The lowest and the highest corner.
 type Block = [Place; 2];
 
-const LOOKS: Options = Options::with_inversion(Inversion::Looks(3));
+const LOOKS: Options = Options::looks(3);
 
 /// Where a ray crosses the sides of a block, as shares of `v`.
 fn crossings([low, high]: &Block, from: Place, v: Place) -> Option<[f64; 2]> {
@@ -229,7 +229,7 @@ fn registered_scans_are_layered_and_keep_what_is_visible() {
         shown <= 30.0 && lost <= 10.0,
         "{shown} % shown, {lost} % lost"
     );
-    let clean = LOOKS.surface(Surface::Clean);
+    let clean = LOOKS.with_surface(Surface::Clean);
     let [_, lost_as_clean] = shares(&points, &places, &blocks, &viewpoints, &clean);
     assert!(
         lost_as_clean > 2.0 * lost,

@@ -21,7 +21,7 @@ fn centroid(points: &[[f64; 3]]) -> [f64; 3] {
 
 /// Points seen by exactly one of the viewpoint and its mirror image.
 fn seen_by_one(points: &[[f64; 3]], mirror: [f64; 3], radius: f64) -> usize {
-    let options = Options::with_radius(radius);
+    let options = Options::radius(radius);
     let here = ask(points, FRONT, &options).mask();
     let there = ask(points, mirror, &options).mask();
     here.iter().zip(&there).filter(|(a, b)| a != b).count()
@@ -31,11 +31,15 @@ fn seen_by_one(points: &[[f64; 3]], mirror: [f64; 3], radius: f64) -> usize {
 fn answers_use_the_radius_that_the_rule_chose() {
     let points = shapes::bumpy(&mut Rng::new(21), 1500);
     let chosen = chosen(&points, FRONT, Radius::Opposite);
-    let answer = ask(&points, FRONT, &Options::default().radius(Radius::Opposite));
+    let answer = ask(
+        &points,
+        FRONT,
+        &Options::default().with_radius(Radius::Opposite),
+    );
     assert_eq!(answer.radius(), chosen.radius);
     assert_eq!(answer.exponent(), chosen.exponent);
     assert_eq!(answer.evaluations(), chosen.evaluations);
-    let same = ask(&points, FRONT, &Options::with_radius(chosen.radius));
+    let same = ask(&points, FRONT, &Options::radius(chosen.radius));
     assert_eq!(same.indices(), answer.indices());
     assert!((chosen.exponent - (chosen.radius / farthest(&points, FRONT)).log10()).abs() < 1e-12);
 }

@@ -72,8 +72,8 @@ fn dome(count: usize, radius: f64, side: f64) -> Vec<[f64; 3]> {
 fn ways() -> [Options; 3] {
     [
         Options::default(),
-        Options::with_inversion(Inversion::Exponential(Exponential::Auto)),
-        Options::with_inversion(Inversion::Looks(3)),
+        Options::inversion(Inversion::Exponential(Exponential::Auto)),
+        Options::looks(3),
     ]
 }
 
@@ -312,8 +312,8 @@ fn the_areas_are_those_of_the_pixels() {
         points.iter_mut().for_each(|p| *p = p.map(|x| x * unit));
         let options = match rng.below(3) {
             0 => Options::default(),
-            1 => Options::with_exponent(2.0),
-            _ => Options::with_inversion(Inversion::Exponential(Exponential::Auto)),
+            1 => Options::exponent(2.0),
+            _ => Options::inversion(Inversion::Exponential(Exponential::Auto)),
         };
         let panorama = seen(&points, from.map(|x| x * unit), &options);
         let title = format!("{from:?}, {points:?}, {options:?}");
@@ -394,6 +394,6 @@ fn what_has_no_panorama_is_refused() {
     }
     let nowhere = cloud.panorama([f64::INFINITY, 0.0, 0.0], &usual, &SIZE);
     refused("viewpoint", "viewpoint", nowhere);
-    let found = cloud.panorama(INSIDE, &ways()[2].scores(true), &SIZE);
+    let found = cloud.panorama(INSIDE, &ways()[2].with_scores(true), &SIZE);
     refused("option", "cannot be combined", found);
 }

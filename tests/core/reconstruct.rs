@@ -103,7 +103,7 @@ fn points_on_edges_and_facets_are_corners() {
         [2.0, 2.0, 2.0],
     ];
     let points = targets.map(shapes::aim);
-    let mesh = mesh(&points, [0.0; 3], &Options::with_radius(3.0));
+    let mesh = mesh(&points, [0.0; 3], &Options::radius(3.0));
     let corners: BTreeSet<u32> = mesh.triangles.iter().flatten().copied().collect();
     assert!(corners.into_iter().eq(0..7));
     // Euler: 7 points, 5 of them on the border of the facet.

@@ -83,11 +83,11 @@ fn a_viewpoint_that_is_not_finite_is_refused() {
 fn numbers_that_are_no_radius_or_exponent_are_refused() {
     for points in [&POINTS[..], &[]] {
         for bad in [NAN, INF, -INF, 0.0, -0.0, -5.0] {
-            let found = view(points, ORIGIN, Options::with_radius(bad));
+            let found = view(points, ORIGIN, Options::radius(bad));
             refused("radius", "radius must be finite and positive", found);
         }
         for bad in [NAN, INF, -INF, -0.5] {
-            let found = view(points, ORIGIN, Options::with_exponent(bad));
+            let found = view(points, ORIGIN, Options::exponent(bad));
             refused("option", "exponent must be finite and at least 0", found);
         }
     }
@@ -98,8 +98,8 @@ fn distances_and_radii_beyond_the_range_are_refused() {
     let far = [[1e200, 0.0, 0.0], [0.0, 1.0, 0.0]];
     for options in [
         Options::default(),
-        Options::with_exponent(0.0),
-        Options::with_radius(1e300),
+        Options::exponent(0.0),
+        Options::radius(1e300),
     ] {
         refused(
             "radius",
@@ -117,9 +117,9 @@ fn distances_and_radii_beyond_the_range_are_refused() {
         view(&[end], end.map(|x| -x), Options::default()),
     );
     for options in [
-        Options::with_radius(f64::MAX),
-        Options::with_exponent(308.0),
-        Options::with_exponent(1e300),
+        Options::radius(f64::MAX),
+        Options::exponent(308.0),
+        Options::exponent(1e300),
     ] {
         refused(
             "radius",
@@ -154,7 +154,7 @@ fn messages_spell_numbers_plainly() {
         refused(
             code,
             message,
-            view(&point, ORIGIN, Options::default().radius(radius)),
+            view(&point, ORIGIN, Options::default().with_radius(radius)),
         );
     }
     let nowhere = view(&point, [0.0, NAN, 5.5], Options::default());
@@ -176,7 +176,7 @@ fn a_refusal_leaves_the_cloud_usable() {
     ] {
         assert!(
             cloud
-                .visible_from(ORIGIN, &Options::default().radius(radius))
+                .visible_from(ORIGIN, &Options::default().with_radius(radius))
                 .is_err()
         );
     }
@@ -209,8 +209,8 @@ fn nothing_the_range_allows_panics() {
             let cloud = PointCloud::new(&points[..n]).unwrap();
             for options in [
                 Options::default(),
-                Options::with_exponent(3.0),
-                Options::with_radius(1e300),
+                Options::exponent(3.0),
+                Options::radius(1e300),
             ] {
                 // Most of these overflow and are refused; the others are answered.
                 if let Ok(answer) = cloud.visible_from(viewpoint, &options) {

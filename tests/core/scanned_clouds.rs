@@ -37,7 +37,7 @@ fn check(points: &[[f32; 3]], exponents: &[f64], samples: usize) {
                 points.len()
             );
             let answer = cloud
-                .visible_from(viewpoint, &Options::with_exponent(exponent))
+                .visible_from(viewpoint, &Options::exponent(exponent))
                 .expect("an acceptable view");
             let q: Vec<[f64; 3]> = wide
                 .iter()

@@ -36,7 +36,7 @@ fn large_exponents_are_not_divided() {
     let points = shapes::bumpy(&mut Rng::new(13), 4000);
     let cloud = PointCloud::new(&points).unwrap();
     for exponent in [7.9, 8.0, 8.1, 12.0] {
-        let options = Options::with_exponent(exponent);
+        let options = Options::exponent(exponent);
         compare(&cloud, [0.0, 0.5, 3.0], &options, 3, "a large exponent");
     }
 }

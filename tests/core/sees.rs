@@ -1,7 +1,7 @@
 //! Points that are not in the cloud: the answer is that of a cloud with the point added, with the
 //! radius of the view without it.
 
-use hidden_point_removal::{Inversion, NonFinite, Options, PointCloud, Within};
+use hidden_point_removal::{NonFinite, Options, PointCloud, Within};
 
 use crate::common::added::{by_definition, places};
 use crate::common::refused;
@@ -48,15 +48,12 @@ fn questions_that_make_no_sense_are_refused() {
     assert_eq!(ask(&[], &default), Ok(vec![]));
     let nan = [0.0, f64::NAN, 0.0];
     refused("non-finite", "2 point(s)", ask(&[far, nan, nan], &default));
-    for options in [
-        Options::with_inversion(Inversion::Looks(2)).scores(true),
-        Options::with_exponent(-1.0),
-    ] {
+    for options in [Options::looks(2).with_scores(true), Options::exponent(-1.0)] {
         refused("option", "", ask(&[far], &options));
         refused("option", "", ask(&[], &options));
     }
     let beyond = [[0.0, 0.0, 14.1], [0.0, 0.0, 13.9], [f64::MAX, 0.0, 0.0]];
-    let seen = ask(&beyond, &Options::with_radius(9.0));
+    let seen = ask(&beyond, &Options::radius(9.0));
     assert_eq!(seen, Ok(vec![false, true, false]));
     refused("viewpoint", "", cloud.sees(nan, &[far], &default));
     // A cloud that skips such points does so here, too.
@@ -71,7 +68,7 @@ fn questions_that_make_no_sense_are_refused() {
 fn a_view_that_is_refused_is_refused_for_positions_outside_of_a_choice_too() {
     let viewpoint = [0.0, 0.0, 5.0];
     let cloud = PointCloud::new(&[[0.0, 0.0, 1.0], [0.0, 1.0, 4.0]]).unwrap();
-    let options = Options::with_radius(3.9).within(Within {
+    let options = Options::radius(3.9).with_within(Within {
         distance: None,
         bounds: Some([[-1.0; 3], [2.0; 3]]),
     });

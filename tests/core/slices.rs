@@ -6,7 +6,7 @@ use crate::common::scenes::KINDS;
 use crate::test;
 
 fn looks(count: usize) -> Options {
-    Options::with_inversion(Inversion::Looks(count)).scores(true)
+    Options::looks(count).with_scores(true)
 }
 
 /// The answer after slices of about `budget` points, and the number of slices.
@@ -78,21 +78,17 @@ fn other_questions_may_come_between_slices() {
     let whole = |at, options: &Options| cloud.visible_from(at, options).unwrap();
     let between: [(&str, [f64; 3], Options); 5] = [
         ("one hull", viewpoint, Options::default()),
-        ("a larger radius", viewpoint, Options::with_exponent(4.0)),
+        ("a larger radius", viewpoint, Options::exponent(4.0)),
         ("two looks", viewpoint, looks(2)),
-        (
-            "no scores",
-            viewpoint,
-            Options::with_inversion(Inversion::Looks(3)),
-        ),
+        ("no scores", viewpoint, Options::looks(3)),
         ("another place", elsewhere, looks(3)),
     ];
     let asked = [
         looks(3),
         Options::default(),
-        Options::with_exponent(0.0),
-        Options::with_inversion(Inversion::Power(1.5)),
-        Options::with_inversion(Inversion::Exponential(Exponential::Auto)),
+        Options::exponent(0.0),
+        Options::inversion(Inversion::Power(1.5)),
+        Options::inversion(Inversion::Exponential(Exponential::Auto)),
     ];
     for (options, (title, at, other)) in asked
         .iter()
@@ -136,7 +132,7 @@ fn a_view_of_some_points_does_not_go_on_from_slices_of_all() {
     });
     let mut sorted: Vec<f64> = distances.collect();
     sorted.sort_by(f64::total_cmp);
-    let near = looks(3).within(hidden_point_removal::Within {
+    let near = looks(3).with_within(hidden_point_removal::Within {
         distance: Some(sorted[300]),
         ..Default::default()
     });

@@ -61,7 +61,7 @@ fn every_point_of_thin_clouds_is_certified() {
             let cloud = PointCloud::new(&points).unwrap();
             for viewpoint in viewpoints() {
                 for exponent in [0.5, 2.0] {
-                    let options = Options::with_exponent(exponent);
+                    let options = Options::exponent(exponent);
                     let answer = cloud.visible_from(viewpoint, &options).unwrap();
                     let expected = proved(&points, viewpoint, answer.radius());
                     let what = format!("{name}, seed {seed}, from {viewpoint:?}, {exponent}");
@@ -80,7 +80,7 @@ fn a_few_points_off_the_plane_are_no_exception() {
     let cloud = PointCloud::new(&points).unwrap();
     for viewpoint in viewpoints() {
         let answer = cloud
-            .visible_from(viewpoint, &Options::with_exponent(2.0))
+            .visible_from(viewpoint, &Options::exponent(2.0))
             .unwrap();
         let expected = proved(&points, viewpoint, answer.radius());
         assert_eq!(answer.indices(), indices_of(&expected), "{viewpoint:?}");
@@ -92,7 +92,7 @@ fn thin_clouds_shared_by_threads_are_the_whole() {
     for (name, shape) in SHAPES {
         let cloud = PointCloud::new(&cloud(shape, 4, 300)).unwrap();
         for viewpoint in viewpoints() {
-            let options = Options::with_exponent(2.0);
+            let options = Options::exponent(2.0);
             let compared = sectors::compare(&cloud, viewpoint, &options, 3);
             assert_eq!(compared, Ok(()), "{name} from {viewpoint:?}");
         }

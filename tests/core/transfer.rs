@@ -1,8 +1,8 @@
 //! Values of images on points, compared with the rule for each point alone.
 
 use hidden_point_removal::{
-    Camera, CameraModel, Convention, Image, Inversion, Merge, Options, Pixels, PointCloud, Pose,
-    Sampling, TransferOptions, Transferred, Values, Weights,
+    Camera, CameraModel, Convention, Image, Merge, Options, Pixels, PointCloud, Pose, Sampling,
+    TransferOptions, Transferred, Values, Weights,
 };
 
 use crate::common::cameras::camera;
@@ -73,7 +73,7 @@ fn each_point_has_the_merged_value_of_the_cameras_that_see_it() {
     let mut rng = Rng::new(5);
     let points = shapes::bumpy(&mut rng, 700);
     let cloud = PointCloud::new(&points).unwrap();
-    let options = Options::with_inversion(Inversion::Looks(3));
+    let options = Options::looks(3);
     let cameras: Vec<Camera> = (0..6)
         .map(|_| {
             let place = rng.direction().map(|x| x * 3.0);
@@ -104,7 +104,7 @@ fn each_point_has_the_merged_value_of_the_cameras_that_see_it() {
             });
             let found = cloud.transfer(&cameras, given, &options, &how).unwrap();
             let mut seen = vec![Vec::new(); points.len()];
-            let scored = options.scores(weights == Weights::Score);
+            let scored = options.with_scores(weights == Weights::Score);
             for (camera, image) in cameras.iter().zip(&images) {
                 let view = cloud.visible_from_camera(camera, &scored).unwrap();
                 let place = camera.position();
@@ -165,7 +165,7 @@ fn one(
     how: TransferOptions,
 ) -> Transferred {
     let cloud = PointCloud::new(points).unwrap();
-    let options = Options::with_inversion(Inversion::Looks(3));
+    let options = Options::looks(3);
     let images = images.iter().copied();
     cloud.transfer(cameras, images, &options, &how).unwrap()
 }

@@ -14,7 +14,7 @@ const FRONT: [f64; 3] = [0.0, 0.0, 3.0];
 #[test]
 fn no_viewpoint_sees_nothing() {
     let cloud = PointCloud::new(&shapes::bumpy(&mut Rng::new(1), 50)).unwrap();
-    let options = Options::with_inversion(Inversion::Exponential(Exponential::Scale(0.5)));
+    let options = Options::inversion(Inversion::Exponential(Exponential::Scale(0.5)));
     let answer = cloud.visible_from_any(&NOWHERE, &options).unwrap();
     assert_eq!(
         (answer.count(), answer.radius(), answer.exponent()),
@@ -27,15 +27,15 @@ fn no_viewpoint_sees_nothing() {
 #[test]
 fn no_viewpoint_is_refused_what_one_is() {
     let cloud = PointCloud::new(&shapes::bumpy(&mut Rng::new(1), 50)).unwrap();
-    let power = Options::with_inversion(Inversion::Power(2.0));
-    let scale = Options::with_inversion(Inversion::Exponential(Exponential::Auto));
+    let power = Options::inversion(Inversion::Power(2.0));
+    let scale = Options::inversion(Inversion::Exponential(Exponential::Auto));
     for options in [
-        Options::with_radius(-1.0),
-        Options::with_exponent(-1.0),
-        power.radius(Radius::Absolute(0.0)),
-        power.radius(Radius::Opposite),
-        Options::with_inversion(Inversion::Power(0.5)),
-        scale.radius(Radius::Absolute(9.0)),
+        Options::radius(-1.0),
+        Options::exponent(-1.0),
+        power.with_radius(Radius::Absolute(0.0)),
+        power.with_radius(Radius::Opposite),
+        Options::inversion(Inversion::Power(0.5)),
+        scale.with_radius(Radius::Absolute(9.0)),
     ] {
         let one = cloud.visible_from([0.0; 3], &options).err();
         assert!(one.is_some(), "{options:?}");
@@ -48,7 +48,7 @@ fn no_viewpoint_is_refused_what_one_is() {
 #[test]
 fn every_choice_of_a_radius_is_counted() {
     let cloud = PointCloud::new(&shapes::bumpy(&mut Rng::new(1), 200)).unwrap();
-    let options = Options::default().radius(Radius::Opposite);
+    let options = Options::default().with_radius(Radius::Opposite);
     let viewpoints = [FRONT, [0.0, 9.0, 0.0], [1.0, -1.0, 4.0]];
     let answer = cloud.visible_from_any(&viewpoints, &options).unwrap();
     let singly = viewpoints.map(|at| cloud.auto_radius(at, Radius::Opposite).unwrap().evaluations);

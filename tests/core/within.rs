@@ -20,11 +20,11 @@ fn every_option_goes_with_a_choice() {
     let viewpoint = [0.4, 0.3, 2.5];
     let bounds = Some([[-0.6, -2.0, -0.7], [2.0, 0.8, 2.0]]);
     let exponential = Inversion::Exponential(Exponential::Auto);
-    let looks = Options::with_inversion(Inversion::Looks(3));
+    let looks = Options::looks(3);
     // The check `within` asks all others.
     let all = [
-        looks.scores(true),
-        Options::default().radius(Radius::Opposite),
+        looks.with_scores(true),
+        Options::default().with_radius(Radius::Opposite),
     ];
     for distance in [None, Some(2.9)] {
         let within = Within { distance, bounds };
@@ -45,7 +45,7 @@ fn every_option_goes_with_a_choice() {
             }
             assert_eq!(facts(found, None), facts(alone, mapped), "{options:?}");
         }
-        for plain in [Options::default(), Options::with_inversion(exponential)] {
+        for plain in [Options::default(), Options::inversion(exponential)] {
             let options = only(within, &plain);
             let mesh = cloud.reconstruct(viewpoint, &options, None).unwrap();
             let other = expected.reconstruct(viewpoint, &plain, None).unwrap();
@@ -70,7 +70,7 @@ fn each_light_has_its_own_points() {
     };
     for plain in [
         Options::default(),
-        Options::with_inversion(Inversion::Exponential(Exponential::Auto)),
+        Options::inversion(Inversion::Exponential(Exponential::Auto)),
     ] {
         let options = only(within, &plain);
         let mut views = vec![0; points.len()];
@@ -204,12 +204,12 @@ fn choices_that_make_no_sense_are_refused() {
     refused("viewpoint", "", cloud.visible_from([nan, 0.0, 0.0], &near));
     refused("option", "each of 3 indices, got 1", cloud.masked(&[true]));
     let part: (&[[f64; 3]], &[u32]) = (&[], &[]);
-    let options = only(distance(9.0), &Options::with_radius(10.0));
+    let options = only(distance(9.0), &Options::radius(10.0));
     refused("option", "", merge_visible(&[part], far, &options));
     let four = PointCloudNd::new(4, &[0.0; 8]).unwrap();
     refused("option", "", four.visible_from(&[1.0; 4], &near));
     // A radius need only reach the points that take part.
-    let small = only(distance(4.5), &Options::with_radius(4.5));
+    let small = only(distance(4.5), &Options::radius(4.5));
     assert_eq!(
         cloud.visible_from(far, &small).unwrap().indices(),
         [0, 1, 2]

@@ -109,7 +109,7 @@ fn options_literal(options: &Options) -> String {
         other => format!("{other:?}"),
     };
     format!(
-        "Options::with_inversion(Inversion::{inversion}).radius(Radius::{:?})",
+        "Options::inversion(Inversion::{inversion}).with_radius(Radius::{:?})",
         options.radius
     )
 }

@@ -71,7 +71,7 @@ impl Aspect {
 /// Options with the numbers that an answer used.
 pub fn given(answer: &Visibility) -> Options {
     let inversion = answer.inversion();
-    let mut options = Options::with_inversion(inversion);
+    let mut options = Options::inversion(inversion);
     if !matches!(inversion, Inversion::Exponential(_)) && answer.radius() > 0.0 {
         options.radius = Radius::Absolute(answer.radius());
     }
@@ -216,7 +216,7 @@ fn along_axis(scene: &Scene, rng: &mut Rng) -> Option<(Vec<u32>, Vec<u32>)> {
         })
         .collect();
     let scale = Exponential::Scale(0.5 / bend as f64);
-    let options = Options::with_inversion(Inversion::Exponential(scale));
+    let options = Options::inversion(Inversion::Exponential(scale));
     let cloud = PointCloud::new(&scene.points).ok()?;
     let found = cloud.visible_from_direction(direction, &options).ok()?;
     Some((found.into_indices(), indices_of(&lower::visible(&lifted))))

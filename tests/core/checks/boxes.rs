@@ -115,13 +115,13 @@ fn street(rng: &mut Rng, n: usize) -> Vec<Place> {
 /// Options for points up to a distance.
 fn options(rng: &mut Rng, reach: f64) -> Options {
     match rng.below(8) {
-        0 => Options::with_radius(reach),
-        1 => Options::with_radius(10.0 * reach),
-        2 => Options::with_radius(1e4 * reach),
-        3 => Options::with_radius(reach).inversion(Inversion::Power(2.0)),
+        0 => Options::radius(reach),
+        1 => Options::radius(10.0 * reach),
+        2 => Options::radius(1e4 * reach),
+        3 => Options::radius(reach).with_inversion(Inversion::Power(2.0)),
         kind => {
             let scale = [1e-3, 1e-2, 0.1, 3.0][kind - 4] * reach;
-            Options::with_inversion(Inversion::Exponential(Exponential::Scale(scale)))
+            Options::inversion(Inversion::Exponential(Exponential::Scale(scale)))
         }
     }
 }

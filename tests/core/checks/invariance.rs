@@ -42,10 +42,10 @@ fn options(rng: &mut Rng, points: usize, along: bool) -> Options {
         _ => Radius::Auto,
     };
     match rng.below(7) {
-        0..3 => Options::with_inversion(Inversion::Looks(2 + rng.below(2))).scores(true),
-        3 => Options::with_inversion(Inversion::Exponential(Exponential::Auto)),
-        4 if !along => Options::with_inversion(Inversion::Power(rng.between(1.1, 4.0))),
-        _ => Options::default().radius(radius),
+        0..3 => Options::looks(2 + rng.below(2)).with_scores(true),
+        3 => Options::inversion(Inversion::Exponential(Exponential::Auto)),
+        4 if !along => Options::inversion(Inversion::Power(rng.between(1.1, 4.0))),
+        _ => Options::default().with_radius(radius),
     }
 }
 
@@ -86,7 +86,7 @@ pub fn check(scene: &Scene, rng: &mut Rng) -> Result<(), String> {
         let answer = from.ask(cloud, &options);
         answer.map_err(|error| title(&error.to_string()))
     };
-    let plain = options.scores(false);
+    let plain = options.with_scores(false);
     let without = from.ask(&cloud, &plain).map(Visibility::into_indices);
     same(
         &title("without scores"),

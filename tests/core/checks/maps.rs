@@ -38,7 +38,7 @@ pub fn check(scene: &Scene, rng: &mut Rng) -> Result<(), String> {
     for _ in 0..WALK {
         let mut options = walk.options;
         if rng.chance(3) {
-            options = Options::with_inversion(inversion(rng));
+            options = Options::inversion(inversion(rng));
         }
         let from = walk.viewpoint;
         if let Ok(hull) = cloud.reconstruct(from, &options, Some(f64::INFINITY)) {

@@ -101,8 +101,8 @@ fn options(scene: &Scene, rng: &mut Rng) -> Options {
     let mut options = match rng.below(6) {
         0..3 => scene.options,
         3 => Options::default(),
-        4 => Options::with_inversion(Inversion::Exponential(Exponential::Auto)),
-        _ => Options::with_inversion(Inversion::Looks(2 + rng.below(2))),
+        4 => Options::inversion(Inversion::Exponential(Exponential::Auto)),
+        _ => Options::looks(2 + rng.below(2)),
     };
     if rng.chance(5) {
         options = only(some_choice(rng, scene), &options);

@@ -29,7 +29,7 @@ pub fn subject(rng: &mut Rng) -> (&'static str, Scene) {
     };
     let mut scene = kind.scene(rng.bits(), n);
     if rng.chance(3) {
-        scene.options = Options::with_inversion(inversion(rng, &scene));
+        scene.options = Options::inversion(inversion(rng, &scene));
     }
     let cloud = PointCloud::new(&scene.points).expect("an acceptable cloud");
     let answer = cloud.visible_from(scene.viewpoint, &scene.options);

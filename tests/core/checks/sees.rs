@@ -13,7 +13,7 @@ pub fn check(scene: &Scene, rng: &mut Rng) -> Result<(), String> {
         && rng.chance(4)
     {
         let radius = rng.pick(&[Radius::Auto, Radius::Exponent(2.0), Radius::Exponent(7.0)]);
-        options = options.radius(radius);
+        options = options.with_radius(radius);
     }
     let places = places(rng, scene, 5);
     compare(scene, &options, &places, "sees");

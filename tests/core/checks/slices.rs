@@ -21,7 +21,7 @@ pub fn check(scene: &Scene, rng: &mut Rng) -> Result<(), String> {
     for _ in 0..WALK {
         let mut options = walk.options;
         if rng.chance(4) {
-            options = Options::with_inversion(inversion(rng));
+            options = Options::inversion(inversion(rng));
         }
         let viewpoint = walk.viewpoint;
         let title = format!("from {viewpoint:?} with {options:?}");

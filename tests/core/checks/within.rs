@@ -12,7 +12,7 @@ pub fn check(scene: &Scene, rng: &mut Rng) -> Result<(), String> {
     let Scene {
         points, viewpoint, ..
     } = scene;
-    let plain = options(scene, rng).within(None);
+    let plain = options(scene, rng).with_within(None);
     let within = some_choice(rng, scene);
     let options = only(within, &plain);
     let mut cloud = cloud_of(points, rng.chance(2));

@@ -106,8 +106,8 @@ pub fn choices(scene: &Scene) -> [Options; 5] {
     [
         scene.options,
         Options::default(),
-        Options::with_exponent(0.5),
-        Options::with_inversion(Inversion::Exponential(Exponential::Auto)),
-        Options::with_inversion(Inversion::Power(1.7)),
+        Options::exponent(0.5),
+        Options::inversion(Inversion::Exponential(Exponential::Auto)),
+        Options::inversion(Inversion::Power(1.7)),
     ]
 }

@@ -9,7 +9,7 @@ pub const EVERYWHERE: [[f64; 3]; 2] = [[f64::NEG_INFINITY; 3], [f64::INFINITY; 3
 
 /// The same options for the chosen points only.
 pub fn only(within: Within, options: &Options) -> Options {
-    options.within(within)
+    options.with_within(within)
 }
 
 /// The indices of the points that take part, by the definition.

@@ -22,23 +22,20 @@ pub const DEGENERATE: &[Kind] = &[
         // |v| = 9t and R = 9m/2 make s = (m − t)/t, exact for these t.
         let points = vectors(rng, n, &NINE, &[1.0, 2.0, 4.0]);
         let radius = 4.5 * f64::from(rng.integer(8, 24));
-        seen_from_origin(points, Options::with_radius(radius))
+        seen_from_origin(points, Options::radius(radius))
     }),
     Kind::new("powers of two, exactly flipped by a power", |rng, n| {
         // d/S is a power of two. If the exponent is an integer, s is a power of two, too.
         let points = vectors(rng, n, &THREE, &[1.0, 2.0, 4.0, 8.0]);
-        let options = Options::with_inversion(Inversion::Power(f64::from(rng.integer(2, 6))))
-            .radius(Radius::Absolute(rng.pick(&[24.0, 48.0, 3072.0])));
+        let options = Options::inversion(Inversion::Power(f64::from(rng.integer(2, 6))))
+            .with_radius(Radius::Absolute(rng.pick(&[24.0, 48.0, 3072.0])));
         seen_from_origin(points, options)
     }),
     Kind::new("all flipped to one sphere", |rng, n| {
         // exp(c/d) is 1: all points of a ray flip alike, except for rounding.
         let points = vectors(rng, n, &THREE, &[1.0, 2.0, 3.0, 4.0]);
         let scale = Exponential::Scale(1e-30);
-        seen_from_origin(
-            points,
-            Options::with_inversion(Inversion::Exponential(scale)),
-        )
+        seen_from_origin(points, Options::inversion(Inversion::Exponential(scale)))
     }),
     Kind::new("circles in planes beside the viewpoint", |rng, n| {
         let circle = [[5.0, 0.0], [3.0, 4.0], [4.0, 3.0]];
@@ -96,7 +93,7 @@ pub const DEGENERATE: &[Kind] = &[
         // The rounded 2R − d keeps few or no digits of d.
         let points = shapes::grid(rng, n);
         let radius = rng.pick(&[1e14, 1e15, 1e16, 1e17, 1e30]);
-        seen_from_origin(points, Options::with_radius(radius))
+        seen_from_origin(points, Options::radius(radius))
     }),
     Kind::new("two walls and their edge", |rng, n| {
         let points = many(n, || {

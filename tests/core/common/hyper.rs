@@ -68,11 +68,11 @@ impl Case {
             *x = (*x + offset) * unit;
         }
         let options = match rng.below(6) {
-            0 => Options::with_inversion(Inversion::Power(rng.between(1.1, 16.0))),
-            1 => Options::with_inversion(Inversion::Exponential(Exponential::Auto)),
+            0 => Options::inversion(Inversion::Power(rng.between(1.1, 16.0))),
+            1 => Options::inversion(Inversion::Exponential(Exponential::Auto)),
             2 => Options::default(),
-            3 => Options::with_exponent(0.0),
-            _ => Options::with_exponent(rng.between(0.0, 6.0)),
+            3 => Options::exponent(0.0),
+            _ => Options::exponent(rng.between(0.0, 6.0)),
         };
         Self {
             kind,

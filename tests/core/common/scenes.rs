@@ -108,7 +108,7 @@ kinds! {
         Scene {
             points: points.into_iter().map(|p| p.map(|x| x * scale)).collect(),
             viewpoint: [0.0; 3],
-            options: Options::with_radius(AIMED_RADIUS * scale),
+            options: Options::radius(AIMED_RADIUS * scale),
         }
     };
 }
@@ -192,7 +192,7 @@ fn aimed(rng: &mut Rng, n: usize, slack: usize, part: fn([i32; 3]) -> bool) -> S
     Scene {
         points: shapes::aimed(rng, n, slack, part),
         viewpoint: [0.0; 3],
-        options: Options::with_radius(AIMED_RADIUS),
+        options: Options::radius(AIMED_RADIUS),
     }
 }
 
@@ -210,6 +210,6 @@ fn with_any_radius(rng: &mut Rng, points: Points, viewpoint: [f64; 3]) -> Scene 
     Scene {
         points,
         viewpoint,
-        options: Options::default().radius(radius),
+        options: Options::default().with_radius(radius),
     }
 }

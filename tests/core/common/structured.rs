@@ -346,7 +346,7 @@ pub fn options(rng: &mut Rng, points: &[[f64; 3]], viewpoint: [f64; 3]) -> Optio
         6 if points.len() < 600 => Radius::Opposite,
         7 => Radius::Exponent(rng.pick(&[0.0, 0.01, 0.3, 7.9, 8.0, 11.0])),
         8 => {
-            return Options::with_inversion(rng.pick(&[
+            return Options::inversion(rng.pick(&[
                 Inversion::Power(1.5),
                 Inversion::Power(2.0),
                 Inversion::Exponential(Exponential::Auto),
@@ -355,7 +355,7 @@ pub fn options(rng: &mut Rng, points: &[[f64; 3]], viewpoint: [f64; 3]) -> Optio
         }
         _ => Radius::Exponent(rng.pick(&[0.5, 1.0, 2.0, 3.0, 4.0, 6.0])),
     };
-    Options::default().radius(radius)
+    Options::default().with_radius(radius)
 }
 
 /// A cloud of about `n` points of a kind, with a viewpoint and options.
@@ -365,7 +365,7 @@ pub fn scene(rng: &mut Rng, (name, shape): (&str, Shape), n: usize) -> Scene {
         return Scene {
             points,
             viewpoint: [0.0; 3],
-            options: Options::with_radius(AIMED_RADIUS),
+            options: Options::radius(AIMED_RADIUS),
         };
     }
     if rng.chance(4) {
