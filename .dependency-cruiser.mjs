@@ -11,7 +11,7 @@ const PACKAGE = [
   ["formats", "formats/"],
   ["query", "query/"],
   // Beside the folder `wasm`, whose address it holds.
-  ["loader", "loader\\.ts$"],
+  ["loader", "(loader|own-wasm)\\.ts$"],
   ["inline", "inline/"],
   ["cloud", "cloud/"],
   ["follow", "follow/"],

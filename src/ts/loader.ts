@@ -1,11 +1,7 @@
-import { compiledOnce, compileOwn, FULL, type InitInput, type WasmModule } from "./instance/compile.js";
-import { configuredWasm } from "./instance/configure.js";
-import { engine, state } from "./instance/instance.js";
-import { initFrom, startedModule } from "./instance/start.js";
-
-// This must be one literal expression: bundlers look for exactly this form. Other tools keep the
-// address unchanged, so this file must stay beside the folder `wasm`.
-const ownFile = compiledOnce(() => compileOwn(() => new URL("./wasm/hpr_bg.wasm", import.meta.url), FULL));
+import type { InitInput } from "./instance/compile.js";
+import { engine } from "./instance/own-engine.js";
+import { initFrom } from "./instance/start.js";
+import { ownWasm } from "./own-wasm.js";
 
 /**
  * Loads the wasm and starts it. Without an argument, it loads the file that comes with the package,
@@ -18,13 +14,5 @@ const ownFile = compiledOnce(() => compileOwn(() => new URL("./wasm/hpr_bg.wasm"
  * @throws HprError (as a rejection) `load` if it cannot be fetched, compiled or started.
  */
 export function init(input?: InitInput): Promise<void> {
-  return initFrom(engine, configuredWasm() ?? ownFile, input);
-}
-
-/**
- * The compiled wasm for a worker: from the instance that is running or starting, or else from the
- * package's own file.
- */
-export async function moduleForWorker(): Promise<WasmModule> {
-  return (await startedModule(state)) ?? (await (configuredWasm() ?? ownFile)());
+  return initFrom(engine, ownWasm(), input);
 }

@@ -157,7 +157,7 @@ export const bundlers = (visit: Visit): Consumer[] => [
     glue: [
       'import wasm from "hidden-point-removal/hpr.wasm";',
       "init(new URL(wasm, import.meta.url))",
-      "--loader:.wasm=file worker-thread=node_modules/hidden-point-removal/dist/worker/worker-thread.js",
+      "--loader:.wasm=file worker-thread=node_modules/hidden-point-removal/dist/worker-thread.js",
     ],
     run: async () => {
       await buildWithEsbuild({
@@ -224,7 +224,7 @@ export const bundlers = (visit: Visit): Consumer[] => [
 ];
 
 /** esbuild does not follow `new URL("…", import.meta.url)`, so the worker's script is an entry of its own. */
-const WORKER = join(installed, "dist/worker/worker-thread.js");
+const WORKER = join(installed, "dist/worker-thread.js");
 
 /** Copies the files that a page needs, by the names that the package exports. */
 function copyExported(folder: string): void {

@@ -68,7 +68,7 @@ describe("the worker", () => {
   it("has no script: load, with its address and the way out", async () => {
     const { error, address } = await visit({ refused: /worker-thread\.js$/ });
     expect(error).toMatch(/^load: the worker could not be started/);
-    expect(error).toContain(`${address}node_modules/hidden-point-removal/dist/worker/worker-thread.js`);
+    expect(error).toContain(`${address}node_modules/hidden-point-removal/dist/worker-thread.js`);
     for (const wayOut of [
       "hidden-point-removal/worker-thread.js",
       "configure({ worker })",

@@ -10,8 +10,8 @@ import { createElement, useRef } from "react";
 import * as THREE from "three";
 import { afterEach } from "vitest";
 
-import { LayerCloud } from "../../dist/deck/layer-cloud.js";
-import { followSettings } from "../../dist/follow/options.js";
+import { LayerCloud } from "../../src/ts/deck/layer-cloud.js";
+import { followSettings } from "../../src/ts/follow/options.js";
 import { viewerOf } from "./potree-viewer";
 import { drawn } from "./three-support";
 

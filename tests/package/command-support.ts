@@ -7,8 +7,8 @@ import { pathToFileURL } from "node:url";
 import type * as Command from "../../src/ts/cli/command";
 
 const root = join(import.meta.dirname, "../..");
-export const COMMAND = join(root, "dist/cli/main.js");
-const { command } = (await import(pathToFileURL(join(root, "dist/cli/command.js")).href)) as typeof Command;
+export const COMMAND = join(root, "dist/cli.js");
+const { command } = (await import(pathToFileURL(join(root, "dist/command.js")).href)) as typeof Command;
 
 export function commandIn(folder: string) {
   const scratch = join(root, "target", folder);

@@ -32,7 +32,7 @@ describe("the entry with the wasm embedded", () => {
   });
 
   it("carries exactly the package's wasm", () => {
-    const text = readFileSync(new URL("../../dist/wasm/embedded.js", import.meta.url), "utf8");
+    const text = readFileSync(new URL("../../src/ts/wasm/embedded.js", import.meta.url), "utf8");
     const [, base64 = ""] = /"([^"]+)"/.exec(text) ?? [];
     expect(gunzipSync(Buffer.from(base64, "base64")).equals(wasmBytes())).toBe(true);
   });

@@ -8,9 +8,9 @@ const binary: Binary = {
     "the option wasm (docs/FILES.md)",
 };
 
-/** Compiles the wasm that reads E57 and LAZ. The address is one literal expression, which bundlers look for. */
+/** Compiles the wasm that reads E57 and LAZ. The address is one literal expression, which bundlers look for, and begins in dist. */
 export const compileFiles: CompileFiles = compiledOnce(() =>
-  compileOwn(() => new URL("../formats/files.wasm", import.meta.url), binary),
+  compileOwn(() => new URL("./formats/files.wasm", import.meta.url), binary),
 );
 
 /** The wasm of an option, if it is given. */

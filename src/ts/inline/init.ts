@@ -1,6 +1,6 @@
 import { compiledOnce, type InitInput } from "../instance/compile.js";
 import { configuredWasm, embed } from "../instance/configure.js";
-import { engine } from "../instance/instance.js";
+import { engine } from "../instance/own-engine.js";
 import { initFrom } from "../instance/start.js";
 import { workerText } from "../wasm/embedded-worker.js";
 import { compileEmbedded } from "./embedded.js";

@@ -1,5 +1,5 @@
 import type { SyncInitInput } from "./compile.js";
-import { engine } from "./instance.js";
+import { engine } from "./own-engine.js";
 import { startSync } from "./start.js";
 
 /**

@@ -1,15 +1,11 @@
-import * as glue from "../wasm/hpr_bg.js";
-import { FULL } from "./compile.js";
-import { type Engine, type Instance as RunningInstance, required, type State } from "./engine.js";
+import type * as glue from "../wasm/hpr_bg.js";
+import { type Instance as RunningInstance, required, type State } from "./engine.js";
 
 /** The exports of the wasm, as the generated glue offers them. */
 export type Bindings = Omit<typeof glue, "__wbg_set_wasm">;
 export type Instance = RunningInstance<Bindings>;
 
 export const state: State<Bindings> = {};
-
-/** The engine of all entries but `lite`. */
-export const engine: Engine<Bindings> = { state, glue, binary: FULL };
 
 /** The instance that is alive, if any. */
 export function runningInstance(): Instance | undefined {

@@ -1,7 +1,9 @@
 import { allocating } from "../base/memory.js";
 import { PointCloud } from "../cloud/cloud.js";
 import { runningInstance } from "../instance/instance.js";
-import { init } from "../loader.js";
+import { engine } from "../instance/own-engine.js";
+import { initFrom } from "../instance/start.js";
+import { ownWasm } from "../own-wasm.js";
 import { WorkerPointCloud } from "../worker/client.js";
 import type { Cloud } from "../worker/followed-cloud.js";
 
@@ -20,5 +22,5 @@ export function prepareCloud(
     return WorkerPointCloud.create(given, { nonFinite, shared: true, transfer: true });
   }
   const build = () => new PointCloud(numbers, { nonFinite });
-  return runningInstance() === undefined ? init().then(build) : build();
+  return runningInstance() === undefined ? initFrom(engine, ownWasm(), undefined).then(build) : build();
 }

@@ -3,7 +3,7 @@ import type { ChosenRadius } from "../query/answers.js";
 import { addDisposeSymbol } from "../base/dispose-symbol.js";
 import { addTag } from "../base/tag.js";
 import { HprError } from "../base/errors.js";
-import { moduleForWorker } from "../loader.js";
+import { moduleForWorker } from "../own-wasm.js";
 import { allocating } from "../base/memory.js";
 import {
   CLOUD_OPTIONS,
