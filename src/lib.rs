@@ -113,6 +113,8 @@ pub use view::camera::Seat;
 pub use view::camera::{Camera, Convention, Pose};
 pub use view::distortion::CameraModel;
 pub use view::guarantees::{permissible_curvature, radius_bound};
+#[doc(hidden)]
+pub use view::options::Given;
 pub use view::options::{Exponential, Inversion, Options, Radius};
 pub use view::radius::ChosenRadius;
 

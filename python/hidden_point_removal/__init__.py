@@ -19,6 +19,7 @@ from numpy.typing import ArrayLike, NDArray
 from ._native import Horizon, HprError, PointCloud, VisibilityMap, merge_visible
 from ._answers import Calibration, Panorama, Placement, SeenBy, Visibility, colmap_vis, orient_normals
 from ._cameras import CameraOfImage, read_cameras
+from ._show import show
 from ._transfer import name_options, transfer
 from .types import Camera, MergeOptions, Options, OtherOptions, Positions, Station, Unpack, Within
 
@@ -43,6 +44,7 @@ __all__ = [
     "merge_visible",
     "orient_normals",
     "read_cameras",
+    "show",
     "transfer",
 ]
 __version__ = "0.1.0"

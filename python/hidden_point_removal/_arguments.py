@@ -69,6 +69,9 @@ def _points_of(given: Any, name: str) -> Any:
         if path.suffix.lower() not in KINDS:
             raise refusal("positions-type", f"{name} must be an array of numbers, or a {', '.join(KINDS)} file, got {given!r:.60}")
         return np.concatenate([np.empty((0, 3), np.float32), *chunks(path)])
+    if all(hasattr(given, axis) for axis in "xyz") and not hasattr(given, "points"):
+        # Records of laspy, and tables of pandas.
+        given = {axis: getattr(given, axis) for axis in "xyz"}
     names = getattr(getattr(given, "dtype", None), "names", None)
     if names:
         given = {column: given[column] for column in names}
@@ -79,6 +82,9 @@ def _points_of(given: Any, name: str) -> Any:
             return np.stack([array(columns[axis], name, "fiu", "real numbers", "positions-type") for axis in "xyz"], axis=-1)
     if hasattr(given, "__array__"):
         return given
+    if hasattr(given, "to_mesh"):
+        # Scenes of trimesh.
+        given = given.to_mesh()
     # laspy's, Open3D's and PyVista's, and trimesh's.
     for attribute in ("xyz", "points", "vertices"):
         if hasattr(given, attribute):
@@ -100,7 +106,8 @@ def place(given: Any, name: str) -> tuple[float, float, float]:
     except (TypeError, ValueError):
         x = y = z = math.nan
     if not all(map(math.isfinite, (x, y, z))):
-        raise refusal(code, f"{name} must be {words}, got {_shown(given, read)}")
+        several = "; several viewpoints are for visible_from_each and visible_from_any" if read.ndim > 1 and name == "viewpoint" else ""
+        raise refusal(code, f"{name} must be {words}, got {_shown(given, read)}{several}")
     return x, y, z
 
 
@@ -108,6 +115,9 @@ def listed(given: Any, name: str) -> list[Any]:
     """The entries of a list. One of the images of pycolmap's reconstruction is that of a camera."""
     if hasattr(given, "reg_image_ids"):
         return [given.images[number] for number in given.reg_image_ids()]
+    if hasattr(given, "values") and not isinstance(given, dict):
+        # Those images themselves, by their ids.
+        given = given.values()
     # A camera is also a list, of its names.
     if isinstance(given, (str, bytes, dict, os.PathLike)) or not hasattr(given, "__iter__") or hasattr(given, "cam_from_world"):
         raise refusal("viewpoint", f"{name} must be a list with an entry for each of them, got {given!r:.60}")

@@ -67,6 +67,14 @@ class PointCloud:
         """The points that a camera sees: `visible_from` its place, cut to its image, with `pixels` and `depths`."""
     def sees(self, viewpoint: ArrayLike, positions: Positions, **options: Unpack[Options]) -> NDArray[np.bool_]:
         """For points that are not in the cloud: whether each would be visible if it were added alone."""
+    def visible_from_each(
+        self,
+        viewpoints: Iterable[Seat],
+        *,
+        on_progress: Callable[[float], object] | None = None,
+        **options: Unpack[Options],
+    ) -> NDArray[np.bool_]:
+        """What each of several viewpoints sees: (viewpoints, indices)."""
     def coverage(
         self,
         viewpoints: Iterable[Seat],

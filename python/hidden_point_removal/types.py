@@ -48,32 +48,42 @@ class MergeOptions(TypedDict, total=False):
     """{"power": number} or {"exponential": number}."""
 
 
-class OtherOptions(TypedDict, total=False):
+class Threads(TypedDict, total=False):
+    threads: int | None
+    """How many threads compute, from 1 to 256; they change no answer. Default: all cores from 200,000 points on, else 1."""
+
+
+# Options of a view, from src/options.json.
+class OtherOptions(Threads, total=False):
     """The options of a view besides the radius."""
 
     exponent: float | None
-    """R = farthest distance * 10**exponent, the paper's parameter. Excludes `radius`."""
+    """R = farthest distance · 10^exponent, instead of `radius`; at least 0."""
     inversion: Inversion | None
-    """ "spherical", {"power": number} or {"exponential": number or "auto"}."""
+    """`"spherical"` (the default); `{"power": γ}`, 1 < γ ≤ 16; `{"exponential": c}`, exp(c/d): one c, or `"auto"`,
+    serves every viewpoint."""
     looks: Literal[2, 3] | None
-    """Two or three hulls, each trusted where it is sure. Excludes radius, exponent and inversion."""
+    """2 or 3 hulls; each decides only the points that it is sure of (docs/LOOKS.md). Excludes the three options
+    above."""
     scores: bool | None
-    """With `looks` only: the answer then has a score for each index."""
+    """With `looks`, for one viewpoint: also an estimate for each index of how likely it is visible."""
     thickness: float | Literal["auto"] | None
-    """With `looks` only: how far behind the surface before it a point may be seen. Default "auto", by the noise."""
+    """With `looks`: how far behind the surface before it a point may lie and still be seen; `"auto"` (the default):
+    by the cloud's noise."""
     surface: Literal["auto", "clean", "noisy", "layered"] | None
-    """With `looks` only: what the cloud is. Default "auto": `PointCloud.surface`."""
+    """With `looks`: what the cloud is, if `cloud.surface` (`"auto"`, the default) finds it wrongly: `"clean"`,
+    `"noisy"`, `"layered"`."""
     within: Within | None
-    """Only these points take part, as if the cloud held no others."""
-    threads: int | None
-    """How many threads compute, from 1 to 256; they change no answer. Default: all cores from 200,000 points on, else 1."""
+    """`{"distance", "box": [min, max], "mask"}`: only these points take part, as a cloud of these alone."""
 
 
 class Options(OtherOptions, total=False):
     """The options of a view. An option that is None counts as left out."""
 
-    radius: float | Rule | None
-    """R of the flipping sphere in the cloud's units, or the rule that chooses it. Default "auto"."""
+    radius: float | Literal["auto", "opposite"] | None
+    """R of the flipping sphere in the cloud's units, or how R is chosen: `"auto"` (the default), `"opposite"` (the
+    paper's rule, about 40 hulls)."""
+# End of options.
 
 
 class Cone(TypedDict):

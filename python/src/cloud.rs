@@ -10,7 +10,7 @@ use pyo3::types::{PyDict, PyType};
 
 use crate::answers::{answer, camera_answer, option, warn_if_inverted};
 use crate::arguments::{Points, Positions, indices as read_indices};
-use crate::options::{self, Asked, How, SURFACES};
+use crate::options::{self, Asked, How};
 use crate::shared::{Shared, worked};
 
 /// A point cloud, prepared for visibility queries.
@@ -172,23 +172,37 @@ pub fn check_listener(py: Python<'_>, listener: Option<&Bound<'_, PyAny>>) -> Py
     Ok(())
 }
 
-/// What some cameras see. Each has a thread of its own; a single one is divided among all threads.
+/// What some cameras see.
 pub fn views(
     cloud: Threads<'_>,
     cameras: &[Camera],
     options: &Options,
 ) -> Result<Vec<CameraView>, core::Error> {
-    if let [camera] = cameras {
-        return Ok(vec![cloud.visible_from_camera(camera, options)?]);
+    each(cloud, cameras, |cloud, camera| {
+        cloud.visible_from_camera(camera, options)
+    })
+}
+
+/// Asks about some places. Each has a thread of its own; a single one is divided among all threads.
+pub fn each<P: Sync, A: Send>(
+    cloud: Threads<'_>,
+    places: &[P],
+    ask: impl Sync + Fn(Threads<'_>, &P) -> Result<A, core::Error>,
+) -> Result<Vec<A>, core::Error> {
+    if let [place] = places {
+        return Ok(vec![ask(cloud, place)?]);
     }
-    let stop = core::stop();
+    let (stop, ask) = (core::stop(), &ask);
+    let alone = cloud.with_threads(1)?;
     std::thread::scope(|scope| {
-        let view = |camera| {
-            core::stop_by(stop.clone());
-            (*cloud).visible_from_camera(camera, options)
+        let spawn = |place| {
+            let stop = stop.clone();
+            scope.spawn(move || {
+                core::stop_by(stop);
+                ask(alone, place)
+            })
         };
-        let spawn = |camera| scope.spawn(move || view(camera));
-        let asked: Vec<_> = cameras.iter().map(spawn).collect();
+        let asked: Vec<_> = places.iter().map(spawn).collect();
         let answers = asked.into_iter().map(|thread| {
             thread
                 .join()
@@ -265,9 +279,7 @@ impl PointCloud {
     /// registered scans, or plants. With looks, the option `surface` overrides it.
     #[getter]
     fn surface(&self, py: Python<'_>) -> PyResult<&'static str> {
-        let found = self.ask_core(py, core::PointCloud::surface)?;
-        let word = SURFACES.iter().find(|(_, surface)| *surface == found);
-        Ok(word.map_or("clean", |(word, _)| word))
+        Ok(self.ask_core(py, core::PointCloud::surface)?.name())
     }
 
     /// Adds points, all or none. They take the next indices.

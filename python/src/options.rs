@@ -1,33 +1,56 @@
 //! Keyword arguments as options of a view.
 
-use hidden_point_removal::{Exponential, Inversion, Options, Radius, Surface, Within};
+use hidden_point_removal::{Given, Options, Within};
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict};
 
 use crate::answers::{option, shown};
 use crate::arguments::{corners, mask};
 
-const NAMES: [&str; 9] = [
-    "radius",
-    "exponent",
-    "inversion",
-    "looks",
-    "scores",
-    "thickness",
-    "surface",
-    "within",
-    "threads",
+// Options of a view, from src/options.json.
+#[rustfmt::skip]
+const OPTIONS: [(&str, &str, &[&str]); 8] = [
+    ("radius", r#"a number, "auto" or "opposite""#, &["exponent"]),
+    ("exponent", r#"a number"#, &[]),
+    ("inversion", r#""spherical", {"power": number} or {"exponential": number or "auto"}"#, &[]),
+    ("looks", r#"2 or 3"#, &["radius", "exponent", "inversion"]),
+    ("scores", r#"True or False"#, &[]),
+    ("thickness", r#"a number or "auto""#, &[]),
+    ("surface", r#""auto", "clean", "noisy" or "layered""#, &[]),
+    ("within", r#"a dictionary of distance, box and mask"#, &[]),
 ];
+
+macro_rules! signature {
+    () => {
+        ", radius=None, exponent=None, inversion=None, looks=None, scores=False, thickness=None, surface=None, within=None"
+    };
+}
+
+macro_rules! about_options {
+    () => {
+        r##"radius: a number, "auto" or "opposite". R of the flipping sphere in the cloud's units, or how R is chosen: `"auto"`
+    (the default), `"opposite"` (the paper's rule, about 40 hulls).
+exponent: a number. R = farthest distance · 10^exponent, instead of `radius`; at least 0.
+inversion: "spherical", {"power": number} or {"exponential": number or "auto"}. `"spherical"` (the default);
+    `{"power": γ}`, 1 < γ ≤ 16; `{"exponential": c}`, exp(c/d): one c, or `"auto"`, serves every viewpoint.
+looks: 2 or 3. 2 or 3 hulls; each decides only the points that it is sure of (docs/LOOKS.md). Excludes the three
+    options above.
+scores: True or False. With `looks`, for one viewpoint: also an estimate for each index of how likely it is visible.
+thickness: a number or "auto". With `looks`: how far behind the surface before it a point may lie and still be seen;
+    `"auto"` (the default): by the cloud's noise.
+surface: "auto", "clean", "noisy" or "layered". With `looks`: what the cloud is, if `cloud.surface` (`"auto"`, the
+    default) finds it wrongly: `"clean"`, `"noisy"`, `"layered"`.
+within: a dictionary of distance, box and mask. `{"distance", "box": [min, max], "mask"}`: only these points take
+    part, as a cloud of these alone."##
+    };
+}
+// End of options.
 
 /// The signature of a question that takes the options of a view, in the form in which Python reads it from a docstring.
 /// Inside, the options are one dictionary, so that an unknown one is refused as any bad input is.
 macro_rules! asks {
     ($head:literal) => {
-        concat!(
-            $head,
-            ", radius=None, exponent=None, inversion=None, looks=None, scores=False, thickness=None, surface=None, within=None, ",
-            "threads=None)\n--\n"
-        )
+        concat!($head, signature!(), ", threads=None)\n--\n")
     };
 }
 
@@ -68,45 +91,65 @@ pub fn read(py: Python<'_>, given: Option<&Bound<'_, PyDict>>) -> PyResult<Asked
         return Ok(asked);
     };
     let Asked { options, how } = &mut asked;
-    let mut has_radius = false;
-    let mut has_inversion = false;
+    let mut found = Vec::new();
     for (name, value) in given.iter() {
         let name: String = name.extract()?;
-        if !NAMES.contains(&name.as_str()) {
-            let known = NAMES.join(", ");
-            return Err(option(
-                py,
-                format!("unknown option {name}; the options are {known}"),
-            ));
+        let row = OPTIONS.iter().find(|(known, ..)| *known == name);
+        if row.is_none() && name != "threads" {
+            let known = OPTIONS.map(|(known, ..)| known).join(", ");
+            let message = format!("unknown option {name}; the options are {known}, threads");
+            return Err(option(py, message));
         }
         if value.is_none() {
             continue;
         }
-        match name.as_str() {
-            "radius" | "exponent" => {
-                if std::mem::replace(&mut has_radius, true) {
-                    return Err(option(py, "radius and exponent exclude each other".into()));
+        match row {
+            None => how.threads = Some(count(py, &name, &value)?),
+            Some(("within", ..)) => how.mask = within(py, &value, options)?,
+            Some((_, values, _)) => {
+                if !set(options, &name, &value)? {
+                    let given = shown(&value);
+                    return Err(option(py, format!("{name} must be {values}, got {given}")));
                 }
-                options.radius = radius(py, &name, &value)?;
             }
-            "inversion" | "looks" => {
-                if std::mem::replace(&mut has_inversion, true) {
-                    return Err(option(py, "inversion and looks exclude each other".into()));
-                }
-                options.inversion = if name == "looks" {
-                    Inversion::Looks(count(py, &name, &value)?)
-                } else {
-                    inversion(py, &value)?
-                };
-            }
-            "thickness" => options.thickness = thickness(py, &value)?,
-            "surface" => options.surface = surface(py, &value)?,
-            "within" => how.mask = within(py, &value, options)?,
-            "threads" => how.threads = Some(count(py, &name, &value)?),
-            _ => options.scores = truth(py, &name, &value)?,
+        }
+        found.push(name);
+    }
+    for (name, _, excludes) in OPTIONS {
+        let is_found = |name: &str| found.iter().any(|own| own == name);
+        if let Some(other) = excludes
+            .iter()
+            .find(|other| is_found(name) && is_found(other))
+        {
+            let message = format!("{name} and {other} exclude each other; give one of the two");
+            return Err(option(py, message));
         }
     }
     Ok(asked)
+}
+
+/// Hands a value to the core. Returns whether it is one of the option's.
+fn set(options: &mut Options, name: &str, value: &Bound<'_, PyAny>) -> PyResult<bool> {
+    if let Ok(entries) = value.cast::<PyDict>() {
+        let [(key, value)] = &entries.iter().collect::<Vec<_>>()[..] else {
+            return Ok(false);
+        };
+        let key: String = key.extract()?;
+        let set = |value: Given<'_>| options.set(name, Given::Entry(&key, &value));
+        return Ok(with_plain(value, set));
+    }
+    Ok(with_plain(value, |value| options.set(name, value)))
+}
+
+/// Hands on a truth value, a number or a word.
+fn with_plain(value: &Bound<'_, PyAny>, set: impl FnOnce(Given<'_>) -> bool) -> bool {
+    if let Ok(truth) = value.extract() {
+        set(Given::Truth(truth))
+    } else if let Some(number) = number(value) {
+        set(Given::Number(number))
+    } else {
+        (value.extract::<String>()).is_ok_and(|word| set(Given::Word(&word)))
+    }
 }
 
 /// Refuses what a question about several cameras cannot answer.
@@ -126,44 +169,6 @@ pub fn given<'py, T: for<'a> FromPyObject<'a, 'py>>(value: &Bound<'py, PyAny>) -
         )
     };
     value.extract().map_err(refused)
-}
-
-/// Reads a number, or "auto".
-fn thickness(py: Python<'_>, value: &Bound<'_, PyAny>) -> PyResult<Option<f64>> {
-    if value.extract::<&str>().is_ok_and(|word| word == "auto") {
-        return Ok(None);
-    }
-    let wrong = || {
-        format!(
-            "thickness must be a number or \"auto\", got {}",
-            shown(value)
-        )
-    };
-    number(value).map(Some).ok_or_else(|| option(py, wrong()))
-}
-
-/// What the survey of a cloud finds.
-pub const SURFACES: [(&str, Surface); 3] = [
-    ("clean", Surface::Clean),
-    ("noisy", Surface::Noisy),
-    ("layered", Surface::Layered),
-];
-
-/// Reads the kind of a surface, or "auto".
-fn surface(py: Python<'_>, value: &Bound<'_, PyAny>) -> PyResult<Option<Surface>> {
-    let word: Option<String> = value.extract().ok();
-    let known = SURFACES
-        .iter()
-        .find(|(name, _)| word.as_deref() == Some(name));
-    match known {
-        Some(&(_, surface)) => Ok(Some(surface)),
-        None if word.as_deref() == Some("auto") => Ok(None),
-        None => {
-            let given = shown(value);
-            let message = format!("surface must be auto, clean, noisy or layered, got {given}");
-            Err(option(py, message))
-        }
-    }
 }
 
 /// Reads a distance and a box into the options. Returns the mask.
@@ -207,55 +212,6 @@ fn within(
     Ok(chosen_mask)
 }
 
-/// A rule for the radius, or a number.
-pub fn radius(py: Python<'_>, name: &str, value: &Bound<'_, PyAny>) -> PyResult<Radius> {
-    let words = [("auto", Radius::Auto), ("opposite", Radius::Opposite)];
-    let wrong = |words| {
-        let given = shown(value);
-        option(py, format!("{name} must be a number{words}, got {given}"))
-    };
-    if name == "exponent" {
-        return number(value).map(Radius::Exponent).ok_or_else(|| wrong(""));
-    }
-    let word: Option<String> = value.extract().ok();
-    let rule = words
-        .iter()
-        .find(|(known, _)| word.as_deref() == Some(known));
-    rule.map(|(_, rule)| *rule)
-        .or_else(|| number(value).map(Radius::Absolute))
-        .ok_or_else(|| wrong(r#", "auto" or "opposite""#))
-}
-
-/// Reads an inversion.
-pub fn inversion(py: Python<'_>, value: &Bound<'_, PyAny>) -> PyResult<Inversion> {
-    if value
-        .extract::<String>()
-        .is_ok_and(|word| word == "spherical")
-    {
-        return Ok(Inversion::Spherical);
-    }
-    if let Ok(entries) = value.cast::<PyDict>() {
-        if entries.len() == 1 {
-            if let Some(power) = entries.get_item("power")?.as_ref().and_then(number) {
-                return Ok(Inversion::Power(power));
-            }
-            if let Some(scale) = entries.get_item("exponential")? {
-                if scale.extract::<String>().is_ok_and(|word| word == "auto") {
-                    return Ok(Inversion::Exponential(Exponential::Auto));
-                }
-                if let Some(scale) = number(&scale) {
-                    return Ok(Inversion::Exponential(Exponential::Scale(scale)));
-                }
-            }
-        }
-    }
-    let message = format!(
-        r#"inversion must be "spherical", {{"power": number}} or {{"exponential": number or "auto"}}, got {}"#,
-        shown(value)
-    );
-    Err(option(py, message))
-}
-
 /// A number; a truth value is none.
 pub fn number(value: &Bound<'_, PyAny>) -> Option<f64> {
     (!value.is_instance_of::<PyBool>())
@@ -273,13 +229,4 @@ pub fn count(py: Python<'_>, name: &str, value: &Bound<'_, PyAny>) -> PyResult<u
             format!("{name} must be a positive integer, got {}", shown(value)),
         )),
     }
-}
-
-fn truth(py: Python<'_>, name: &str, value: &Bound<'_, PyAny>) -> PyResult<bool> {
-    value.extract().map_err(|_| {
-        option(
-            py,
-            format!("{name} must be True or False, got {}", shown(value)),
-        )
-    })
 }

@@ -1,14 +1,18 @@
 //! Questions to a cloud about many viewpoints, and what is seen all around one.
 
-use hidden_point_removal::{Camera, Choice, Inversion, PanoramaOptions, Placing, Radius, Station};
-use numpy::{IntoPyArray, PyArray1, PyArrayMethods};
+use std::slice;
+
+use hidden_point_removal::{
+    Camera, Choice, Given, Inversion, Options, PanoramaOptions, Placing, Station,
+};
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
 use pyo3::exceptions::PyUserWarning;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::answers::{option, python, refused};
 use crate::arguments::{self, numbers, place};
-use crate::cloud::PointCloud;
+use crate::cloud::{PointCloud, each};
 use crate::map::{self, VisibilityMap};
 use crate::options::{self, Asked, How, refuse_scores};
 
@@ -44,6 +48,38 @@ impl PointCloud {
         })?;
         self.warn_of_inverted(py, &viewpoints)?;
         Ok(counts.into_pyarray(py))
+    }
+
+    #[doc = asks!("visible_from_each($self, viewpoints, *, on_progress=None")]
+    /// What each of several viewpoints sees, in one array.
+    ///
+    /// viewpoints: list of 3 numbers each, or array of shape (m, 3). A camera may stand in the place of a viewpoint; it
+    ///     sees only what is in its image. Each view chooses its own radius.
+    /// on_progress: is called with the share that is done. It must not change the cloud. An exception in it
+    ///     ends the question.
+    /// Options: those of `visible_from`. Not with scores.
+    /// Returns an array of bool of shape (m, n): a row for each viewpoint, a column for each index.
+    #[pyo3(signature = (viewpoints, *, on_progress=None, **options), text_signature = None)]
+    fn visible_from_each<'py>(
+        &self,
+        py: Python<'py>,
+        viewpoints: &Bound<'_, PyAny>,
+        on_progress: Option<&Bound<'_, PyAny>>,
+        options: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<Bound<'py, PyArray2<bool>>> {
+        let viewpoints = arguments::seats(viewpoints, "viewpoints")?;
+        let asked = options::read(py, options)?;
+        let shape = [viewpoints.len(), self.__len__(py)?];
+        let mut seen = Vec::with_capacity(shape[0] * shape[1]);
+        self.in_groups(py, &viewpoints, &asked, on_progress, |cloud, group| {
+            let rows = each(cloud, group, |cloud, seat| {
+                cloud.coverage(slice::from_ref(seat), &asked.options)
+            })?;
+            seen.extend(rows.iter().flatten().map(|&count| count > 0));
+            Ok(())
+        })?;
+        self.warn_of_inverted(py, &viewpoints)?;
+        seen.into_pyarray(py).reshape(shape)
     }
 
     #[doc = asks!("place_viewpoints($self, candidates, count=None, share=None, weights=None, *, on_progress=None")]
@@ -151,10 +187,13 @@ impl PointCloud {
         #[pyo3(from_py_with = options::given)] rule: String,
     ) -> PyResult<(f64, f64, u32)> {
         let viewpoint = place(viewpoint, "viewpoint")?;
-        let word = rule.as_str().into_pyobject(py)?.into_any();
-        let rule = options::radius(py, "radius", &word)?;
+        let mut options = Options::default();
+        if !options.set("radius", Given::Word(&rule)) {
+            let message = format!(r#"rule must be "auto" or "opposite", got {rule:?}"#);
+            return Err(option(py, message));
+        }
         let chosen = self.ask(py, How::default(), |cloud| {
-            cloud.auto_radius(viewpoint, rule)
+            cloud.auto_radius(viewpoint, options.radius)
         })?;
         Ok((chosen.radius, chosen.exponent, chosen.evaluations))
     }
@@ -202,7 +241,12 @@ impl PointCloud {
         let Asked { mut options, how } = options::read(py, given)?;
         refuse_scores(py, &options, "calibrate")?;
         let asked = given.map_or_else(|| Ok(PyDict::new(py)), |given| given.copy())?;
-        if options.inversion == Inversion::Spherical && options.radius == Radius::Auto {
+        let chosen =
+            |name: &&str| matches!(asked.get_item(name), Ok(Some(value)) if !value.is_none());
+        if !["radius", "exponent", "inversion", "looks"]
+            .iter()
+            .any(chosen)
+        {
             options.inversion = Inversion::Looks(3);
             asked.set_item("looks", 3)?;
         }

@@ -19,17 +19,7 @@ impl PointCloud {
     /// the viewpoint are visible (Katz, Tal and Basri 2007, section 3). The answer is exact for the flipped points.
     ///
     /// viewpoint: 3 numbers, in the cloud's units.
-    /// radius: float, "auto" (default) or "opposite". R of the flipping sphere in the cloud's units, at least the
-    ///     distance of the farthest point; or the rule that chooses it. A larger R shows more points.
-    /// exponent: float, at least 0. R = distance of the farthest point * 10**exponent, the paper's parameter.
-    /// inversion: "spherical" (default), {"power": float} or {"exponential": float or "auto"}.
-    /// looks: 2 or 3. So many hulls, each trusted where it is sure: fewer errors, slower. Not with radius, exponent
-    ///     and inversion.
-    /// scores: bool. With looks: the answer has a score from 0 to 1 for each index.
-    /// thickness: float or "auto" (default). With looks: how far behind the surface before it a point may lie and still be
-    ///     seen, in the cloud's units.
-    /// surface: "auto" (default), "clean", "noisy" or "layered". With looks: what the cloud is, in place of `cloud.surface`.
-    /// within: dict of distance (float), box (two corners) and mask (n truth values). Only these points take part.
+    #[doc = about_options!()]
     /// threads: int, from 1 to 256. So many threads compute; they change no answer. Default: all cores from 200,000 points
     ///     on, else 1.
     ///

@@ -281,6 +281,10 @@ def test_how_many_viewpoints_see_each_point_and_which_to_choose():
     counts = cloud.coverage(places)
     masks = [cloud.visible_from(place).mask() for place in places]
     assert counts.dtype == np.uint32 and np.array_equal(counts, np.sum(masks, axis=0))
+    for threads in (None, 1, 3):
+        each = cloud.visible_from_each(np.array(places), threads=threads)
+        assert each.dtype == bool and np.array_equal(each, masks)
+    assert cloud.visible_from_each([]).shape == (0, 1500)
     placed = cloud.place_viewpoints(places, count=2)
     assert len(placed.chosen) == len(placed.gains) == 2 and placed.chosen != [0, 2]
     assert np.array_equal(placed.seen, np.flatnonzero(np.any([masks[k] for k in placed.chosen], axis=0)))
@@ -312,6 +316,8 @@ def test_how_many_viewpoints_see_each_point_and_which_to_choose():
         ("option", lambda cloud: cloud.sees(VIEWPOINT, [[0, 0, 0]], looks=3, scores=True)),
         ("option", lambda cloud: cloud.coverage([VIEWPOINT], looks=3, scores=True)),
         ("viewpoint", lambda cloud: cloud.coverage([[0, 0]])),
+        ("viewpoint", lambda cloud: cloud.visible_from_each([[0, 0]])),
+        ("option", lambda cloud: cloud.visible_from_each([VIEWPOINT], looks=3, scores=True)),
         ("option", lambda cloud: cloud.place_viewpoints([VIEWPOINT], count=0)),
         ("option", lambda cloud: cloud.place_viewpoints([VIEWPOINT], share=1.5)),
         ("option", lambda cloud: cloud.place_viewpoints([VIEWPOINT], share="all")),

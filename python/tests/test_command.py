@@ -42,7 +42,7 @@ def test_several_files(tmp_path):
 def test_help_and_what_is_refused(tmp_path):
     np.save(tmp_path / "a.npy", POINTS)
     shown = " ".join(run(tmp_path, "--help").stdout.split())
-    assert "--looks" in shown and "each trusted where it is sure" in shown and run(tmp_path, "--version").stdout.strip() == __version__
+    assert "--looks" in shown and "each decides only the points that it is sure of" in shown and run(tmp_path, "--version").stdout.strip() == __version__
     for words, said in (
         (["a.npy", "--from", "0,0"], "argument --from"),
         (["a.npy", "--from", "0,0,5", "--looks", "4"], "looks"),

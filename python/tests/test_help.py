@@ -2,7 +2,10 @@
 
 import ast
 import inspect
+import json
 import pydoc
+import re
+from typing import get_type_hints
 from pathlib import Path
 
 import pytest
@@ -10,7 +13,8 @@ import pytest
 import hidden_point_removal as hpr
 from hidden_point_removal import Horizon, HprError, PointCloud, _native, tiles, types
 
-OPTIONS = "radius exponent inversion looks scores thickness surface within".split()
+TABLE = json.loads((Path(__file__).parents[2] / "src" / "options.json").read_text())
+OPTIONS = list(TABLE["view"]["options"])
 ASKS = [name for name in dir(PointCloud) if not name.startswith("_")]
 TAKE_NO_OPTIONS = {"append", "auto_radius", "noise", "remove", "skipped", "spacing", "surface"}
 
@@ -46,6 +50,22 @@ def test_each_question_names_its_options(name):
     assert "unknown option" not in str(refused.value)
 
 
+def test_what_is_made_from_the_table_of_options_is_up_to_date():
+    assert list(inspect.signature(PointCloud.visible_from).parameters)[2:] == [*OPTIONS, "threads"]
+    assert sorted(get_type_hints(types.Options)) == sorted([*OPTIONS, "threads"])
+    shown = " ".join(inspect.getdoc(PointCloud.visible_from).split())
+    for name, row in TABLE["view"]["options"].items():
+        # Up to the first link or dictionary, which Python writes in its own way.
+        text = re.split(r"[\[{]", row["short"])[0].strip("`( ")
+        assert f"{name}: " in shown and text[1:] in shown, name
+    questions = {"mesh": PointCloud.reconstruct, "light": PointCloud.illuminate, "panorama": PointCloud.panorama, "map": PointCloud.visibility_map,
+                 "many": PointCloud.coverage, "placement": PointCloud.place_viewpoints, "transfer": hpr.transfer}  # fmt: skip
+    assert questions.keys() == TABLE.keys() - {"view"}
+    for group, question in questions.items():
+        named = {re.sub("[A-Z]", lambda letter: f"_{letter[0].lower()}", name) for name in TABLE[group]["options"]}
+        assert named <= inspect.signature(question).parameters.keys(), group
+
+
 def test_classes_show_how_to_make_them():
     assert list(inspect.signature(PointCloud).parameters) == ["positions", "non_finite"]
     assert list(inspect.signature(Horizon).parameters) == ["viewpoint", "radius", "inversion"]
@@ -55,7 +75,7 @@ def test_help_lists_signature_types_and_text():
     shown = pydoc.plain(pydoc.render_doc(PointCloud.visible_from))
     # Python 3.13 breaks a long signature into lines.
     assert "visible_from(self,/,viewpoint,*,radius=None," in "".join(shown.split())
-    for words in ('radius: float, "auto" (default)', "Returns a `Visibility`", "Katz, Tal and Basri"):
+    for words in ('radius: a number, "auto" or "opposite"', "Returns a `Visibility`", "Katz, Tal and Basri"):
         assert words in shown
 
 

@@ -186,9 +186,10 @@ def fields(names):
         Lazy(),
         fields(["x", "y", "z", "intensity"]),
         fields(["X", "Y", "Z"]),
+        fields(["x", "y", "z", "intensity"]).view(np.recarray),
         {f"cartesian{axis}": column for axis, column in zip("XYZ", POINTS.T)},
     ],
-    ids=["columns", "features", "lists", "cloud", "lists", "laspy", "trimesh", "open3d.t", "tensor", "numpy()", "fields", "FIELDS", "pye57"],
+    ids=["columns", "features", "lists", "cloud", "lists", "laspy", "trimesh", "open3d.t", "tensor", "numpy()", "fields", "FIELDS", "records", "pye57"],
 )
 def test_points_are_read_as_they_are(given):
     assert np.array_equal(PointCloud(given).visible_from(VIEWPOINT).indices, SEEN.indices)
@@ -199,9 +200,78 @@ def test_points_are_read_as_they_are(given):
     assert np.array_equal(hidden_point_removal(given, VIEWPOINT), SEEN.indices)
 
 
+def test_the_function_takes_all_options():
+    seen = PointCloud(POINTS).visible_from(VIEWPOINT, looks=3, thickness=0.1).indices
+    assert np.array_equal(hidden_point_removal(POINTS, VIEWPOINT, looks=3, thickness=0.1), seen)
+    assert not np.array_equal(seen, SEEN.indices)
+
+
 def test_a_file_is_read(tmp_path):
     np.save(tmp_path / "points.npy", POINTS.astype(np.float32))
     assert len(PointCloud(tmp_path / "points.npy")) == len(PointCloud(str(tmp_path / "points.npy"))) == 500
+
+
+def test_clouds_of_laspy_are_read(tmp_path):
+    laspy = pytest.importorskip("laspy")
+    las = laspy.create()
+    las.header.scales = [0.001] * 3
+    las.xyz = POINTS
+    las.write(tmp_path / "cloud.las")
+    rounded = PointCloud(las.xyz).visible_from(VIEWPOINT).indices
+    with laspy.open(tmp_path / "cloud.las") as file:
+        for given in (las, las.points, tmp_path / "cloud.las", next(file.chunk_iterator(500))):
+            assert np.array_equal(PointCloud(given).visible_from(VIEWPOINT).indices, rounded), given
+
+
+def test_clouds_of_trimesh_are_read():
+    trimesh = pytest.importorskip("trimesh")
+    ball = trimesh.creation.icosphere(3)
+    for given in (ball, trimesh.PointCloud(ball.vertices), trimesh.Scene([ball])):
+        assert PointCloud(given).visible_from(VIEWPOINT).count == PointCloud(ball.vertices).visible_from(VIEWPOINT).count
+
+
+class Reconstruction:
+    """As in pycolmap: images by their ids, of which some have a pose."""
+
+    class Image:
+        class cam_from_world:
+            @staticmethod
+            def matrix():
+                return np.linalg.inv(POSE)[:3]
+
+        class camera:
+            model, model_name, params, width, height = 2, "SIMPLE_RADIAL", [50, 20, 15, 0], 40, 30
+
+    class Images:
+        def values(self):
+            return [Reconstruction.Image(), Reconstruction.Image()]
+
+        def __getitem__(self, number):
+            return Reconstruction.Image()
+
+    images = Images()
+
+    def reg_image_ids(self):
+        return [4, 7]
+
+
+def reconstruction():
+    pycolmap = pytest.importorskip("pycolmap")
+    made = pycolmap.Reconstruction()
+    made.add_camera_with_trivial_rig(pycolmap.Camera(model="SIMPLE_RADIAL", width=40, height=30, params=[50, 20, 15, 0], camera_id=1))
+    pose = pycolmap.Rigid3d(np.linalg.inv(POSE)[:3])
+    for number in (4, 7):
+        made.add_image_with_trivial_frame(pycolmap.Image(name=f"{number}.jpg", camera_id=1, image_id=number), pose)
+    return made
+
+
+@pytest.mark.parametrize("make", [Reconstruction, reconstruction])
+def test_a_reconstruction_of_pycolmap_is_a_list_of_cameras(make):
+    made, expected = make(), cloud().seen_by([CAMERA, CAMERA])
+    for given in (made, made.images, list(made.images.values())):
+        assert np.array_equal(cloud().seen_by(given).cameras, expected.cameras)
+        assert cloud().coverage(given).tolist() == np.diff(expected.offsets).tolist()
+    assert cloud().visible_from_camera(made.images[4]).count == len(expected.cameras) / 2
 
 
 def test_what_torch_says_is_passed_on():

@@ -1,4 +1,4 @@
-// Makes the types, the reader's rows and the documents' table of options from src/options.json.
+// Makes the types, the readers' rows and the documents' table of options from src/options.json.
 import { readFileSync, writeFileSync } from "node:fs";
 
 import { inRoot } from "../lib/run.js";
@@ -52,7 +52,20 @@ export function makeOptions(): void {
   const groups = JSON.parse(readFileSync(inRoot(TABLE), "utf8")) as Record<string, Group>;
   write(OPTION_ROWS, typescript(groups));
   write(FLAGS, flags(groups));
-  write(DOCUMENT, withTable(readFileSync(inRoot(DOCUMENT), "utf8"), groups["view"]!));
+  const view = groups["view"]!;
+  writePart(DOCUMENT, "<!-- options of a view, from src/options.json -->", tableOf(view), "<!-- end of options -->");
+  writePart(
+    "python/hidden_point_removal/types.py",
+    "# Options of a view, from src/options.json.",
+    pythonTypes(view),
+    "# End of options.",
+  );
+  writePart(
+    "python/src/options.rs",
+    "// Options of a view, from src/options.json.",
+    pythonTable(view),
+    "// End of options.",
+  );
 }
 
 function write(path: string, text: string): void {
@@ -136,12 +149,114 @@ function plain(markdown: string): string {
   return markdown.replaceAll(/ ?\(\[[^\]]*\]\([^)]*\)\)|[`"]/g, "");
 }
 
-/** The document with the table of options between its marks. */
-function withTable(text: string, { options }: Group): string {
+/** The table of a document. */
+function tableOf({ options }: Group): string {
   const rows = Object.entries(options).map(([name, { short }]) => `| \`${name}\` | ${short} |`);
-  const table = ["| option | effect |", "|---|---|", ...rows].join("\n");
-  const [begin, end] = ["<!-- options of a view, from src/options.json -->\n", "\n<!-- end of options -->"];
-  const [from, to] = [text.indexOf(begin), text.indexOf(end)];
-  if (from < 0 || to < from) throw new Error(`${DOCUMENT} has no place for the table of options.`);
-  return text.slice(0, from + begin.length) + table + text.slice(to);
+  return ["| option | effect |", "|---|---|", ...rows].join("\n");
+}
+
+/** Writes what stands between two lines of a file. */
+function writePart(path: string, begin: string, made: string, end: string): void {
+  const text = readFileSync(inRoot(path), "utf8");
+  const [from, to] = [text.indexOf(`${begin}\n`) + begin.length + 1, text.indexOf(`\n${end}`)];
+  if (from === begin.length || to < from) throw new Error(`${path} has no place for the table of options.`);
+  write(path, text.slice(0, from) + made + text.slice(to));
+}
+
+// Python.
+
+/** What Python calls the types that have a reader of their own, and how its messages name their values. */
+const TYPES: Record<string, [type: string, values: string]> = {
+  "Inversion | ResolvedInversion": ["Inversion", '"spherical", {"power": number} or {"exponential": number or "auto"}'],
+  Within: ["Within", "a dictionary of distance, box and mask"],
+};
+/** Open3D's method has it as an argument of its own. */
+const RADIUS = "radius";
+const WIDTH = 116;
+
+/** The types of keyword arguments. */
+function pythonTypes({ options }: Group): string {
+  const field = (name: string): string[] => {
+    const row = options[name]!;
+    return [`    ${name}: ${kindOf(row).type} | None`, ...wrapped(`    """${said(row)}"""`)];
+  };
+  return [
+    "class OtherOptions(Threads, total=False):",
+    '    """The options of a view besides the radius."""',
+    "",
+    ...Object.keys(options)
+      .filter((name) => name !== RADIUS)
+      .flatMap(field),
+    "",
+    "",
+    "class Options(OtherOptions, total=False):",
+    '    """The options of a view. An option that is None counts as left out."""',
+    "",
+    ...field(RADIUS),
+  ].join("\n");
+}
+
+/** Names, values and exclusions for the reader, and the texts of help(). */
+function pythonTable({ options }: Group): string {
+  const rows = Object.entries(options);
+  const text = rows.map(([name, row]) => wrapped(`${name}: ${kindOf(row).values}. ${said(row)}`).join("\n"));
+  return [
+    "#[rustfmt::skip]",
+    `const OPTIONS: [(&str, &str, &[&str]); ${rows.length}] = [`,
+    ...rows.map(([name, row]) => {
+      const excludes = (row.excludes ?? []).map((one) => `"${one}"`).join(", ");
+      return `    ("${name}", r#"${kindOf(row).values}"#, &[${excludes}]),`;
+    }),
+    "];",
+    "",
+    "macro_rules! signature {",
+    "    () => {",
+    `        "${rows.map(([name, row]) => `, ${name}=${row.truth ? "False" : "None"}`).join("")}"`,
+    "    };",
+    "}",
+    "",
+    "macro_rules! about_options {",
+    "    () => {",
+    `        r##"${text.join("\n")}"##`,
+    "    };",
+    "}",
+  ].join("\n");
+}
+
+function kindOf({ type, truth, whole, number, words = [] }: Option): { type: string; values: string } {
+  if (type !== undefined) {
+    const [own, values] = TYPES[type] ?? [type, type];
+    return { type: own, values };
+  }
+  if (truth) return { type: "bool", values: "True or False" };
+  const numbers = whole && Array.from({ length: whole[1] - whole[0] + 1 }, (_, i) => whole[0] + i);
+  const named = words.map((word) => JSON.stringify(word));
+  const literals = [...(numbers ?? []), ...named];
+  return {
+    type: [...(number ? ["float"] : []), ...(literals.length > 0 ? [`Literal[${literals.join(", ")}]`] : [])].join(
+      " | ",
+    ),
+    values: listed([...(number ? ["a number"] : []), ...(numbers ?? []), ...named]),
+  };
+}
+
+const listed = (names: unknown[]) =>
+  names.length < 2 ? names.join("") : `${names.slice(0, -1).join(", ")} or ${names.at(-1) as string}`;
+
+/** The short text with dictionaries in the place of objects, and documents in that of links. */
+function said({ short }: Option): string {
+  const text = short
+    .replaceAll(/\[([^\]]+)\]\(\1\)/g, "docs/$1")
+    .replaceAll(/\{ (.*?) \}/g, (_, inner: string) => `{${inner.replaceAll(/(^|, )(\w+)(?=:|,|$)/g, '$1"$2"')}}`);
+  return `${text[0]!.toUpperCase()}${text.slice(1)}${text.endsWith(".") ? "" : "."}`;
+}
+
+/** Lines of at most `WIDTH` letters; all but the first are indented. */
+function wrapped(text: string): string[] {
+  const lines = [""];
+  for (const word of text.split(/(?<=\S) /)) {
+    if (lines.at(-1)!.length + 1 + word.length > WIDTH) lines.push(`    ${word}`);
+    else lines.push([lines.pop(), word].filter(Boolean).join(" "));
+  }
+  return lines;
 }

@@ -74,6 +74,21 @@ pub enum Surface {
     Layered,
 }
 
+impl Surface {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Clean, Self::Noisy, Self::Layered];
+
+    /// Its name in other languages: clean, noisy or layered.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Clean => "clean",
+            Self::Noisy => "noisy",
+            Self::Layered => "layered",
+        }
+    }
+}
+
 /// What a sample tells of a cloud's noise.
 pub(crate) struct Noise {
     /// Empty where the cloud has too few points.

@@ -101,6 +101,17 @@ pub struct Options {
     pub within: Option<Within>,
 }
 
+/// A value of an option as another language gives it: [`Options::set`].
+#[doc(hidden)]
+#[derive(Clone, Copy, Debug)]
+pub enum Given<'a> {
+    Number(f64),
+    Word(&'a str),
+    Truth(bool),
+    /// A dictionary of one entry.
+    Entry(&'a str, &'a Given<'a>),
+}
+
 impl Options {
     pub(crate) fn asks_for_looks(&self) -> bool {
         matches!(self.inversion, Inversion::Looks(_))
@@ -126,6 +137,44 @@ impl Options {
             Some(within) => within.region(viewpoint),
             None => Ok(None),
         }
+    }
+
+    /// Sets an option by its name in `src/options.json`. Returns whether it takes such a value. For bindings.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn set(&mut self, name: &str, value: Given<'_>) -> bool {
+        use Given::{Entry, Number, Truth, Word};
+        match (name, value) {
+            ("radius", Word("auto")) => self.radius = Radius::Auto,
+            ("radius", Word("opposite")) => self.radius = Radius::Opposite,
+            ("radius", Number(radius)) => self.radius = Radius::Absolute(radius),
+            ("exponent", Number(exponent)) => self.radius = Radius::Exponent(exponent),
+            ("inversion", Word("spherical")) => self.inversion = Inversion::Spherical,
+            ("inversion", Entry("power", &Number(power))) => {
+                self.inversion = Inversion::Power(power);
+            }
+            ("inversion", Entry("exponential", Word("auto"))) => {
+                self.inversion = Inversion::Exponential(Exponential::Auto);
+            }
+            ("inversion", Entry("exponential", &Number(scale))) => {
+                self.inversion = Inversion::Exponential(Exponential::Scale(scale));
+            }
+            ("looks", Number(count)) if count >= 0.0 && count as usize as f64 == count => {
+                self.inversion = Inversion::Looks(count as usize);
+            }
+            ("scores", Truth(scores)) => self.scores = scores,
+            ("thickness", Word("auto")) => self.thickness = None,
+            ("thickness", Number(thickness)) => self.thickness = Some(thickness),
+            ("surface", Word("auto")) => self.surface = None,
+            ("surface", Word(word)) => {
+                match Surface::ALL.into_iter().find(|own| own.name() == word) {
+                    None => return false,
+                    found => self.surface = found,
+                }
+            }
+            _ => return false,
+        }
+        true
     }
 
     const DEFAULT: Self = Self {
