@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ._native import Horizon, HprError, PointCloud, VisibilityMap, merge_visible
-from ._answers import Calibration, Panorama, Placement, SeenBy, Visibility, colmap_vis, orient_normals
+from ._answers import Calibration, CameraView, Panorama, Placement, SeenBy, Visibility, colmap_vis, orient_normals
 from ._cameras import CameraOfImage, read_cameras
 from ._show import show
 from ._transfer import name_options, transfer
@@ -27,6 +27,7 @@ __all__ = [
     "Camera",
     "Calibration",
     "CameraOfImage",
+    "CameraView",
     "Horizon",
     "HprError",
     "MergeOptions",

@@ -27,8 +27,6 @@ class Visibility:
     evaluations: how many hulls the choice of R took.
     exact: True: the answer is final.
     inversion: the inversion that was used, with numbers only.
-    pixels: where each visible point is in the camera's image, x and y: shape (count, 2). None without a camera.
-    depths: the depth of each visible point along the optical axis. None without a camera.
     """
 
     indices: NDArray[np.uint32]
@@ -38,8 +36,6 @@ class Visibility:
     evaluations: int
     exact: bool
     inversion: str | dict[str, float | list[float]]
-    pixels: NDArray[np.float32] | None
-    depths: NDArray[np.float32] | None
     _length: int
     _cloud: PointCloud | None
 
@@ -89,6 +85,18 @@ class Visibility:
         bar = f"<progress max='1' value='{share:.4f}'></progress>"
         used = f"R = {self.radius:.6g}" if self.radius else f"{self.inversion}"
         return f"<p>{bar} <b>{self.count:,}</b> of {self._length:,} points are visible ({share:.1%}). {used}</p>"
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class CameraView(Visibility):
+    """Which points a camera sees: a `Visibility`, and where its image shows them.
+
+    pixels: where each visible point is in the image, x and y: shape (count, 2).
+    depths: the depth of each visible point along the optical axis.
+    """
+
+    pixels: NDArray[np.float32]
+    depths: NDArray[np.float32]
 
 
 class Panorama(NamedTuple):
@@ -155,8 +163,8 @@ class SeenBy(NamedTuple):
         return csr_array((given, self.cameras, self.offsets), self.shape)
 
 
-def seen_by(length: int, views: list[tuple[Visibility, NDArray[np.float32]]]) -> SeenBy:
-    """The `SeenBy` of views of a cloud of so many indices: of each, the `Visibility` and the directions to the camera."""
+def seen_by(length: int, views: list[tuple[CameraView, NDArray[np.float32]]]) -> SeenBy:
+    """The `SeenBy` of views of a cloud of so many indices: of each, the `CameraView` and the directions to the camera."""
     order, offsets = by_point(length, [view.indices for view, _ in views])
     counts = [view.count for view, _ in views]
     cameras = np.repeat(np.arange(len(views), dtype=np.uint32), counts)[order]

@@ -4,7 +4,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._answers import Calibration, Panorama, Placement, SeenBy, Visibility
+from ._answers import Calibration, CameraView, Panorama, Placement, SeenBy, Visibility
 from .types import CameraLike, Cone, MergeOptions, Options, Positions, Rule, Seat, Station, Unpack
 
 class HprError(ValueError):
@@ -63,7 +63,7 @@ class PointCloud:
         self, k: int, viewpoints: Iterable[Seat], **options: Unpack[Options]
     ) -> Visibility:
         """The points that at least `k` of the viewpoints see."""
-    def visible_from_camera(self, camera: CameraLike, **options: Unpack[Options]) -> Visibility:
+    def visible_from_camera(self, camera: CameraLike, **options: Unpack[Options]) -> CameraView:
         """The points that a camera sees: `visible_from` its place, cut to its image, with `pixels` and `depths`."""
     def sees(self, viewpoint: ArrayLike, positions: Positions, **options: Unpack[Options]) -> NDArray[np.bool_]:
         """For points that are not in the cloud: whether each would be visible if it were added alone."""

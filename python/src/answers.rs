@@ -5,7 +5,7 @@ use hidden_point_removal::{CameraView, Error, Exponential, Inversion};
 use numpy::{IntoPyArray, PyArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use pyo3::types::IntoPyDict;
+use pyo3::types::{IntoPyDict, PyTuple};
 
 const INVERTED: &std::ffi::CStr = c"next to no points are in this image, but many are in that of the inverse pose: is it camera_to_world or world_to_camera?";
 
@@ -19,8 +19,7 @@ pub fn answer<'py>(
     cloud: &Bound<'py, PyAny>,
     seen: core::Visibility,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let none = cloud.py().None();
-    made(cloud, seen, [none.clone_ref(cloud.py()), none])
+    python(cloud.py(), "Visibility")?.call1(fields(cloud, seen)?)
 }
 
 /// What a camera sees, and the direction of length 1 from each visible point to it.
@@ -32,19 +31,19 @@ pub fn camera_answer<'py>(
     warn_if_inverted(py, view.seems_inverted)?;
     let count = view.depths.len();
     let pixels = view.pixels.into_flattened().into_pyarray(py);
-    let pixels = pixels.reshape([count, 2])?.into_any().unbind();
-    let depths = view.depths.into_pyarray(py).into_any().unbind();
+    let pixels = pixels.reshape([count, 2])?.into_any();
+    let depths = view.depths.into_pyarray(py).into_any();
     let towards = view.towards.into_flattened().into_pyarray(py);
     let towards = towards.reshape([count, 3])?.into_any();
-    Ok((made(cloud, view.visibility, [pixels, depths])?, towards))
+    let fields = fields(cloud, view.visibility)?.to_list();
+    fields.append(pixels)?;
+    fields.append(depths)?;
+    let made = python(py, "CameraView")?.call1(fields.to_tuple())?;
+    Ok((made, towards))
 }
 
-/// `image`: where the visible points are in an image, and their depths.
-fn made<'py>(
-    cloud: &Bound<'py, PyAny>,
-    seen: core::Visibility,
-    [pixels, depths]: [Py<PyAny>; 2],
-) -> PyResult<Bound<'py, PyAny>> {
+/// The fields of a `Visibility`.
+fn fields<'py>(cloud: &Bound<'py, PyAny>, seen: core::Visibility) -> PyResult<Bound<'py, PyTuple>> {
     let py = cloud.py();
     let inversion = match seen.inversion() {
         Inversion::Looks(_) => [("looks", seen.looks())].into_py_dict(py)?.into_any(),
@@ -55,7 +54,7 @@ fn made<'py>(
     let (radius, exponent, evaluations) = (seen.radius(), seen.exponent(), seen.evaluations());
     let (exact, length) = (seen.exact(), seen.mask().len());
     let indices = seen.into_indices().into_pyarray(py);
-    python(py, "Visibility")?.call1((
+    let seen = (
         indices,
         scores,
         radius,
@@ -63,11 +62,10 @@ fn made<'py>(
         evaluations,
         exact,
         inversion,
-        pixels,
-        depths,
         length,
         cloud,
-    ))
+    );
+    seen.into_pyobject(py)
 }
 
 /// An inversion as an option, with numbers only.

@@ -115,7 +115,7 @@ impl PointCloud {
     ///     near, far: float, limits of the depth along the optical axis, in the cloud's units.
     /// Options: those of `visible_from`.
     ///     Also what `read_cameras` gives, or an image of pycolmap.
-    /// Returns a `Visibility` with `pixels` and `depths`. A camera that is no such dict raises the code "viewpoint".
+    /// Returns a `CameraView`: a `Visibility` with `pixels` and `depths`. A camera that is no such dict raises the code "viewpoint".
     #[pyo3(signature = (camera, **options), text_signature = None)]
     fn visible_from_camera<'py>(
         slf: &Bound<'py, Self>,

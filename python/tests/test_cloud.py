@@ -255,7 +255,7 @@ def test_a_camera_sees_a_part_of_the_view_from_its_place():
     turned[:3, 3] -= away
     upright = cloud.visible_from_camera(camera(camera_to_world=turned @ np.diag([1, -1, -1, 1]), convention="opengl"), exponent=3)
     assert np.array_equal(upright.indices, seen.indices)
-    assert every.pixels is None and every.depths is None
+    assert not hasattr(every, "pixels") and isinstance(seen, hpr.CameraView)
     x, y = local[:, 0] / local[:, 2], local[:, 1] / local[:, 2]
     angle = np.arctan(np.hypot(x, y))
     bent = cloud.visible_from_camera(camera(camera_to_world=turned, model="SIMPLE_RADIAL_FISHEYE", distortion=[0.1]), exponent=3)
@@ -429,3 +429,19 @@ def test_an_answer_is_an_index(dtype):
     shown = seen._repr_html_()
     assert f"<b>{seen.count}</b> of 900" in shown and f"{seen.radius:.6g}" in shown
     assert "looks" in cloud.visible_from(VIEWPOINT, looks=2)._repr_html_()
+
+
+def test_what_the_survey_finds_is_what_looks_follow():
+    ball = np.random.default_rng(0).normal(size=(20_000, 3))
+    ball /= np.linalg.norm(ball, axis=1)[:, None]
+    rough = ball * (1 + np.random.default_rng(1).normal(0, 0.02, (20_000, 1)))
+    for points, found in ((ball, "clean"), (rough, "noisy")):
+        cloud = PointCloud(points)
+        assert cloud.surface == found and (cloud.noise > 0.01) == (found == "noisy")
+        of = {word: cloud.visible_from([0, 0, 5], looks=3, surface=word).count for word in (None, "auto", "clean", "noisy", "layered")}
+        assert of[None] == of["auto"] == of[found] and of["layered"] > of["clean"]
+    assert of["clean"] < of["noisy"] / 2
+    with pytest.raises(HprError, match='surface must be "auto", "clean", "noisy" or "layered", got \'rough\''):
+        cloud.visible_from([0, 0, 5], looks=3, surface="rough")
+    with pytest.raises(HprError, match="looks and exponent exclude each other"):
+        cloud.visible_from([0, 0, 5], looks=3, exponent=2)

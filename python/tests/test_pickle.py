@@ -22,7 +22,7 @@ WAYS = [copy.copy, copy.deepcopy, *(lambda whole, p=p: pickle.loads(pickle.dumps
 
 def same(one, other):
     for name in ("indices", "scores", "pixels", "depths"):
-        a, b = getattr(one, name), getattr(other, name)
+        a, b = getattr(one, name, None), getattr(other, name, None)
         assert (a is None and b is None) or (a.dtype == b.dtype and np.array_equal(a, b)), name
     for name in ("radius", "exponent", "evaluations", "exact", "inversion", "count"):
         assert getattr(one, name) == getattr(other, name), name
