@@ -10,7 +10,7 @@ import { root } from "../root.js";
 import { asciiPly, ball } from "./clouds.js";
 import { servePage, type Site } from "./site.js";
 import { element, hears, heardBy, openStranger, settledState } from "./stranger.js";
-import { inNode, provoke, served } from "./support.js";
+import { inNode, openPage, provoke, served } from "./support.js";
 
 const DIST = join(root, "www/dist");
 const positions = ball(900);
@@ -389,6 +389,28 @@ test("until its first cloud it downloads at most 400 kB, with three.js and the W
     expect.arrayContaining(["hidden-point-cloud.js", expect.stringMatching(/hpr_bg.*\.wasm/) as string]),
   );
   expect(sum).toBeLessThanOrEqual(400_000);
+});
+
+test("a notebook of Python hands it a cloud", async () => {
+  const [, script] = /^SCRIPT = """(.*?)"""/ms.exec(
+    readFileSync(join(root, "python/hidden_point_removal/_show.py"), "utf8"),
+  )!;
+  served.set("widget.js", Buffer.from(script!));
+  served.set(
+    "notebook.html",
+    Buffer.from('<!doctype html><html lang="en"><head><link rel="icon" href="data:,"></head><body></body></html>'),
+  );
+  const page = await openPage("notebook.html");
+  const shown = await page.evaluate(`(async () => {
+    const { default: widget } = await import(new URL("widget.js", location.href).href);
+    const file = new DataView(Uint8Array.from(${JSON.stringify([...asciiPly(positions)])}).buffer);
+    const model = new Map([["element", "${elsewhere.address}hidden-point-cloud.js"], ["file", file]]);
+    await widget.render({ model, el: document.body });
+    const cloud = document.querySelector("hidden-point-cloud");
+    await cloud.ready;
+    return [cloud.count, cloud.hiddenPoints];
+  })()`);
+  expect(shown).toEqual([900, "shown"]);
 });
 
 test("a server can import it, and its types are beside it", () => {

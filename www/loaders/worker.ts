@@ -60,8 +60,9 @@ async function load(request: WorkerRequest): Promise<LoadedCloud> {
   }
   const { streamFrom, skipNonFinite, damaged, chosen } = request;
   const check = (cloud: LoadedCloud) => checkedCloud(name, cloud, skipNonFinite === true);
-  // Refuses texts that cannot be read as an address, and addresses that hold their own content (data:).
-  if (request.kind === "url" && !URL.canParse(".", request.url)) {
+  // Refuses texts that cannot be read as an address, and addresses that hold their own content (data:). A program hands over
+  // its own cloud by blob:.
+  if (request.kind === "url" && !request.url.startsWith("blob:") && !URL.canParse(".", request.url)) {
     throw new LoadProblem(`“${shortened(request.url)}” is not the address of a file.`);
   }
   if (/\.copc\.laz$/i.test(name) && streamFrom !== undefined) {
