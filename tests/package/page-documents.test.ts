@@ -41,12 +41,19 @@ function compare(rows: string[][], expected: { name: string; values?: string; us
 const usualOf = ({ write, usual }: AnyRow) => write(usual);
 
 test("the parameters of the address in the document are the page's", () => {
+  const all = [
+    ...parameters.map(([name, { values }]) => ({ name, values })),
+    ...settings.map(([, row]) => ({ name: row.parameter, values: row.values, usual: usualOf(row) })),
+  ];
+  const attributes = all.map(({ name }) => name).filter((name) => (ATTRIBUTE_NAMES as string[]).includes(name));
   compare(rowsOf("docs/ADDRESS.md", "parameters of the address"), [
     { name: "sample", values: SAMPLES.map(({ name }) => name).join(", ") },
     { name: "src" },
-    ...parameters.map(([name, { values }]) => ({ name, values })),
-    ...settings.map(([, row]) => ({ name: row.parameter, values: row.values, usual: usualOf(row) })),
+    ...all.filter(({ name }) => !attributes.includes(name)),
   ]);
+  // They are told once, with the element.
+  const said = readFileSync(join(root, "docs/ADDRESS.md"), "utf8");
+  for (const name of attributes) expect(said).toContain(`\`${name}\``);
 });
 
 test("the attributes of the element in the document are the element's", () => {
