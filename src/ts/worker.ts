@@ -7,9 +7,7 @@ export type { NumberArray } from "./base/typed-arrays.js";
 export type { IlluminationOptions, ReconstructionOptions } from "./query/queries.js";
 export type { Inversion, RadiusRule, ResolvedInversion, VisibilityOptions } from "./query/view-options.js";
 export type { Reconstruction, Visibility } from "./cloud/visibility.js";
-export { type Followed, Follower, type RecoveryTimes, type Round } from "./follow/follower.js";
-export type { AnswerKind, FollowOptions, Stage } from "./follow/options.js";
-export { type AskedStage, Refinement } from "./follow/view.js";
+export type { AnswerKind, FollowOptions } from "./follow/options.js";
 export { type StreamedAnswer, ViewStream, type ViewStreamOptions } from "./worker/view-stream.js";
 export {
   type RequestOptions,

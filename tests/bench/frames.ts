@@ -1,6 +1,8 @@
 // A camera turns at 60 frames a second, and nothing is drawn: how old the map of each frame is, which the worker made.
-import { Follower, Refinement, WorkerPointCloud } from "hidden-point-removal/worker";
+import { WorkerPointCloud } from "hidden-point-removal/worker";
 
+import { Follower } from "../../dist/follow/follower.js";
+import { Refinement } from "../../dist/follow/view.js";
 import { bumpy, bumpyFiveMillion, type Cloud, dragon } from "./clouds.js";
 import { median, type Row, type Table } from "./report.js";
 import { orbit } from "./views.js";
@@ -16,7 +18,7 @@ export async function timeFrames(): Promise<Table> {
   const rows: Row[] = [];
   for (const made of [dragon("dragon"), bumpy("bumpy-1m"), bumpyFiveMillion()]) rows.push(await turned(made));
   const note =
-    `${FRAMES} frames at 60 a second, ${SPEED}° apart, by \`Follower\` and \`Refinement\`, as viewers do it. Milliseconds are medians from the ` +
+    `${FRAMES} frames at 60 a second, ${SPEED}° apart, by \`Follower\` and \`Refinement\`, as the adapters do it. Milliseconds are medians from the ` +
     "question to the map, messages included; the main thread's are its script in a frame.";
   return { title: "Maps in a worker, for each frame", note, rows };
 }

@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import type { TimedView } from "../../www/ask/inquiry.js";
+import type { TimedView } from "../../www/view/inquiry.js";
 import { captionOf, methodOf, sentenceOf } from "../../www/view/sentence.js";
 import { addStyle } from "./site.js";
 import {

@@ -8,7 +8,7 @@ import { inNode } from "./support.js";
 interface DrawnMap {
   /** As the status says it in this frame. */
   viewpoint: number[];
-  given: Record<"hprViewpoint" | "hprMargins", number[]>;
+  given: Record<"hprEye" | "hprMargins", number[]>;
   depths: Float32Array;
 }
 
@@ -41,7 +41,7 @@ export function keepMaps(page: Page): Promise<unknown> {
       if (parameters.at(-1) instanceof Float32Array) depths = (parameters.at(-1) as Float32Array).slice();
     });
     after("drawArrays", () => {
-      if (given["byMap"]?.[0] !== 1 || depths === undefined) return;
+      if (given["hprMode"]?.[0] !== 1 || depths === undefined) return;
       const { viewpoint } = document.getElementById("status")!.dataset;
       maps.push({ viewpoint: viewpoint!.split(",").map(Number), given: { ...given }, depths });
       depths = undefined;
@@ -57,7 +57,7 @@ export async function judgeMaps(page: Page, positions: Float32Array, options: Vi
   const judged = [];
   for (const { viewpoint, given, depths } of maps) {
     const map = mapOf({ data: depths, viewpoint, center, origin: center, numbers: given.hprMargins });
-    expect(map.uniforms).toEqual({ hprViewpoint: given.hprViewpoint, hprMargins: given.hprMargins });
+    expect(map.uniforms).toEqual({ hprViewpoint: given.hprEye.map(Math.fround), hprMargins: given.hprMargins });
     const visible = await inNode(positions, (cloud) => cloud.visibleFrom(viewpoint, options).mask());
     const counts = { hidden: 0, visible: 0, wrong: 0, found: 0 };
     map.hides(positions).forEach((hidden, i) => {

@@ -1,18 +1,25 @@
-// How the page's answers follow the viewpoint and the settings. The worker is a script, and the time is the test's own.
+// What the page asks its filter for, and what it makes of the answers. The worker is a script, and the time is the test's own.
 import { HprError } from "hidden-point-removal";
+import { WorkerPointCloud } from "hidden-point-removal/worker";
 import { afterEach, beforeEach, expect, test, vi } from "vitest";
-import { Inquiry } from "../../www/ask/inquiry.js";
-import type { WorkerCloud } from "../../www/ask/question.js";
+import { prepareCloud } from "../../www/cloud/prepare.js";
 import { type Settings, USUAL_SETTINGS, type Viewpoint } from "../../www/settings/settings.js";
+import { Inquiry, type TimedView } from "../../www/view/inquiry.js";
+import { CloudPoints } from "../../www/view/points.js";
+import { THEMES } from "../../www/view/theme.js";
 
 interface Asked {
+  options: { looks?: number; radius?: unknown; exponent?: number; origin?: number[] };
   kind: string;
+  from: Viewpoint;
   signal: AbortSignal;
   answer: () => void;
   refuse: (error: Error) => void;
 }
 
 const HANG = new HprError("internal", "silent; go on", { cause: new DOMException("silent", "TimeoutError") });
+/** The middle of the cloud, which a number in single precision cannot tell from its neighbors. */
+const CENTER: Viewpoint = [500_000.125, 5_000_000.25, 100];
 
 beforeEach(() => {
   vi.useFakeTimers({ toFake: ["setTimeout", "clearTimeout", "performance"] });
@@ -26,16 +33,21 @@ afterEach(() => {
 class Scene {
   readonly asked: Asked[] = [];
   readonly errors: unknown[] = [];
+  readonly answers: TimedView[] = [];
   made = 0;
   disposed = 0;
+  readonly points: CloudPoints;
   readonly inquiry: Inquiry;
-  #at: Viewpoint = [0, 0, 5];
+  #at: Viewpoint = [CENTER[0], CENTER[1], CENTER[2] + 5];
   #settings: Settings;
 
   private constructor(length: number, settings: Partial<Settings>) {
     this.#settings = { ...USUAL_SETTINGS, ...settings };
-    this.inquiry = new Inquiry(this.#cloud(length), () => Promise.resolve(this.#cloud(length)), 1);
-    this.inquiry.onError = (error) => this.errors.push(error);
+    const positions = new Float64Array(3 * length);
+    for (let i = 0; i < length; i++) positions.set([CENTER[0] + (i % 2), CENTER[1], CENTER[2]], 3 * i);
+    positions[0] = CENTER[0] - 1;
+    this.points = new CloudPoints(prepareCloud({ positions, colors: null }).cloud, THEMES.dark);
+    this.inquiry = new Inquiry(this.#cloud(length), () => Promise.resolve(this.#cloud(length)), this.points);
   }
 
   static async of(length: number, settings: Partial<Settings> = {}): Promise<Scene> {
@@ -44,32 +56,41 @@ class Scene {
     await scene.flush();
     scene.asked.at(-1)!.answer();
     await first;
+    scene.inquiry.onError = (error) => scene.errors.push(error);
+    scene.inquiry.onView = (view) => scene.answers.push(view);
+    scene.draw();
     return scene;
   }
 
-  #cloud(length: number): WorkerCloud {
+  /** The first frame compiles the shader, which shows whether maps can be drawn. */
+  draw(): void {
+    const { material } = this.points.solid;
+    const shader = { vertexShader: material.vertexShader, uniforms: material.uniforms };
+    material.onBeforeCompile(shader as never, { capabilities: { isWebGL2: true } } as never);
+  }
+
+  #cloud(length: number): WorkerPointCloud {
     this.made += 1;
-    const ask = (kind: string, signal: AbortSignal) =>
+    const ask = (isMap: boolean, from: Viewpoint, options: Asked["options"] & { signal: AbortSignal }) =>
       new Promise((resolve, reject) => {
         const visibility = { count: 1, indices: new Uint32Array(1) };
+        const kind = isMap ? "map" : options.looks === undefined ? "operator" : "looks";
         this.asked.push({
           kind,
-          signal,
-          answer: () => {
-            resolve(visibility);
-          },
+          from,
+          options,
+          signal: options.signal,
+          answer: () => resolve(visibility),
           refuse: reject,
         });
       });
-    const points = {
-      length,
-      spacing: 1,
-      visibleFrom: (_: unknown, { kind, signal }: { kind: string; signal: AbortSignal }) => ask(kind, signal),
-      visibilityMap: () => ask("map", new AbortController().signal),
-      dispose: () => Promise.resolve((this.disposed += 1)),
-    };
-    const options = ({ looks }: { looks: number }) => ({ kind: looks > 0 ? "looks" : "operator" });
-    return { points, center: [0, 0, 0], options } as unknown as WorkerCloud;
+    return Object.defineProperties(Object.create(WorkerPointCloud.prototype) as WorkerPointCloud, {
+      length: { value: length },
+      spacing: { value: 1 },
+      visibleFrom: { value: ask.bind(null, false) },
+      visibilityMap: { value: ask.bind(null, true) },
+      dispose: { value: () => Promise.resolve((this.disposed += 1)) },
+    });
   }
 
   flush = () => new Promise((resolve) => setImmediate(resolve));
@@ -82,7 +103,7 @@ class Scene {
   }
 
   async move(x: number): Promise<void> {
-    this.#at = [x, 0, 5];
+    this.#at = [CENTER[0] + x, CENTER[1], CENTER[2] + 5];
     await this.follow();
   }
 
@@ -107,24 +128,24 @@ class Scene {
   }
 }
 
-test("the first view is answered by one hull and looks; a move by maps, and by looks at rest", async () => {
-  const scene = await Scene.of(100_000);
-  expect([scene.asked.splice(0)[0]!.kind, ...(await scene.kinds(0))]).toEqual(["operator", "looks", "map"]);
+test("the first view is answered by one hull and looks; at rest a map is made ahead; a move is answered at rest", async () => {
+  const scene = await Scene.of(20_000);
+  const [first] = scene.asked.splice(0);
+  expect([first!.kind, ...(await scene.kinds(100))]).toEqual(["operator", "looks", "map"]);
   expect(scene.inquiry.busy).toBe(false);
-  const moving = [];
+  const moving: string[] = [];
   for (let x = 1; x < 4; x++) {
     await scene.move(x);
     expect(scene.inquiry.busy).toBe(true);
     moving.push(...(await scene.kinds(9)));
   }
   expect(moving).toEqual(["map", "map", "map"]);
-  expect(await scene.kinds(40)).toEqual([]);
-  expect(await scene.kinds(250)).toEqual(["looks"]);
+  expect(await scene.kinds(100)).toEqual(["looks"]);
 });
 
 test("frames that take longer than a rest are no rest", async () => {
-  const scene = await Scene.of(100_000);
-  await scene.kinds(250);
+  const scene = await Scene.of(20_000);
+  await scene.kinds(300);
   scene.asked.length = 0;
   for (let x = 1; x < 4; x++) {
     await scene.move(x);
@@ -133,56 +154,73 @@ test("frames that take longer than a rest are no rest", async () => {
     await vi.advanceTimersByTimeAsync(300);
   }
   expect(scene.asked.splice(0).map(({ kind }) => kind)).toEqual(["map", "map", "map"]);
-  expect(await scene.kinds(1)).toEqual(["looks"]);
+  expect(await scene.kinds(300)).toEqual(["looks"]);
 });
 
-test("a small cloud is asked by one hull and looks, and by no maps", async () => {
-  const small = await Scene.of(1000);
-  expect([small.asked.splice(0)[0]!.kind, ...(await small.kinds(250))]).toEqual(["operator", "looks"]);
+test("the filter is asked from exactly the place in f64, and its maps are drawn around the middle of the cloud", async () => {
+  const scene = await Scene.of(20_000);
+  await scene.kinds(100);
+  scene.asked.length = 0;
+  await scene.move(0.1);
+  const { from, options } = scene.asked[0]!;
+  expect([from, options.origin]).toEqual([[CENTER[0] + 0.1, CENTER[1], CENTER[2] + 5], [...scene.points.cloud.center]]);
 });
 
 test("after a change of settings the final answer alone is asked, and nothing known is asked again", async () => {
-  const scene = await Scene.of(100_000);
+  const scene = await Scene.of(20_000);
+  await scene.kinds(100);
   scene.asked.length = 0;
-  await scene.kinds(250);
-  for (const [settings, kinds] of [
-    [{ looks: 2 }, ["looks"]],
-    [{ looks: 0 }, ["operator"]],
-    [{ radius: { exponent: 2 } }, ["operator"]],
+  for (const [settings, options] of [
+    [{ looks: 2 }, { looks: 2 }],
+    [
+      { looks: 3, thickness: 0.2 },
+      { looks: 3, thickness: 0.2 },
+    ],
+    [{ looks: 0 }, { radius: "auto" }],
+    [{ radius: { exponent: 2 } }, { exponent: 2 }],
   ] as const) {
     await scene.set(settings);
-    expect(await scene.kinds(250)).toEqual(kinds);
+    const [asked] = scene.asked;
+    expect(asked!.options).toMatchObject(options);
+    expect(await scene.kinds(100)).toHaveLength(1);
+    expect(scene.answers.at(-1)!.question.method.looks).toBe("looks" in options ? options.looks : 0);
   }
 });
 
-test("a later stage is given up when the view moves on, and the first one never", async () => {
-  const scene = await Scene.of(100_000);
+test("settings that do not suit a place are said, and asked again from another place", async () => {
+  const scene = await Scene.of(1000, { looks: 0 });
   scene.asked.length = 0;
-  await scene.follow();
-  const [hull] = scene.asked.splice(0);
-  await scene.follow();
-  expect(hull!.signal.aborted).toBe(false);
+  await scene.set({ radius: { length: 3 } });
+  const refuse = async () => {
+    scene.asked.splice(0)[0]!.refuse(new HprError("radius", "R is too small."));
+    await scene.flush();
+    expect(await scene.kinds(100)).toEqual(["operator"]);
+    expect(scene.answers.at(-1)!.note).toMatch(/do not suit this cloud or place.*: R is too small\.$/);
+  };
+  await refuse();
   await scene.move(1);
-  expect(hull!.signal.aborted).toBe(true);
-  hull!.refuse(new DOMException("moved on", "AbortError"));
-  await scene.follow();
-  const [map] = scene.asked.splice(0);
+  expect(scene.asked[0]!.options.radius).toBe(3);
+  await refuse();
   await scene.move(2);
-  expect([map!.kind, map!.signal.aborted, scene.errors]).toEqual(["map", false, []]);
+  expect(await scene.kinds(100)).toEqual(["operator"]);
+  expect(scene.answers.at(-1)!.note).toBeNull();
+  expect(scene.errors).toEqual([]);
 });
 
 test("a refused question is not asked again", async () => {
-  const scene = await Scene.of(100_000);
+  const scene = await Scene.of(20_000);
   scene.asked.length = 0;
+  await vi.advanceTimersByTimeAsync(100);
   await scene.follow();
   scene.asked.splice(0)[0]!.refuse(new HprError("too-large", "no memory"));
   await scene.follow();
-  expect(await scene.kinds(250)).toEqual([]);
+  expect(await scene.kinds(100)).toEqual([]);
   expect([scene.errors.length, scene.inquiry.busy]).toEqual([1, false]);
 });
 
-test("a worker that hangs is replaced once and asked again; after that, `restart` replaces it", async () => {
+test("a worker that hangs is replaced once and asked again; after that, another place is asked", async () => {
   const scene = await Scene.of(1000);
+  await scene.kinds(100);
   scene.asked.length = 0;
   await scene.move(1);
   const hang = async () => {
@@ -195,9 +233,9 @@ test("a worker that hangs is replaced once and asked again; after that, `restart
   expect([scene.made, scene.disposed, scene.errors, scene.inquiry.busy]).toEqual([2, 1, [], true]);
   await hang();
   expect([scene.made, scene.errors, scene.inquiry.busy]).toEqual([2, [HANG], false]);
+  await vi.advanceTimersByTimeAsync(1000);
   await scene.move(2);
-  expect([scene.asked.length, scene.inquiry.busy]).toEqual([0, false]);
-  scene.inquiry.restart();
-  expect(await scene.kinds(250)).toEqual(["operator", "looks"]);
+  await scene.flush();
+  expect(await scene.kinds(100)).toEqual(["operator", "looks"]);
   expect([scene.made, scene.errors.length, scene.inquiry.busy]).toEqual([3, 1, false]);
 });

@@ -1,17 +1,19 @@
 // What every adapter promises, with one cloud on the page and with three, which share a worker.
 import { init, PointCloud, type VisibilityOptions } from "hidden-point-removal";
-import type { HiddenPointFilter } from "hidden-point-removal/three";
-import { beforeAll, describe, expect, it, vi } from "vitest";
+import { type FilterChange, HiddenPointFilter } from "hidden-point-removal/three";
+import { WorkerPointCloud } from "hidden-point-removal/worker";
+import { describe, expect, it, vi } from "vitest";
 
-import { ADAPTERS, cameraAt, type Drawn, pageWith, type Place } from "./adapters";
+import { ADAPTERS, cameraAt, type Drawn, pageWith, type Place, pointsOf } from "./adapters";
 import { watchedWorkers } from "./node-workers";
 import { bumpySphere, problemOf } from "./support";
+import { drawn } from "./three-support";
 
 const COUNT = 2400;
 const HERE: Place = [0, 0, 5];
 const THERE: Place = [-3, 1, 0.5];
 
-beforeAll(() => init());
+await init();
 
 const next = (milliseconds = 2) => new Promise((resolve) => setTimeout(resolve, milliseconds));
 
@@ -136,26 +138,32 @@ describe.each(ADAPTERS.map((adapter) => [adapter.name, adapter] as const))("%s",
       const all = await page({ settle: undefined });
       const filters = all.flatMap(({ filter }) => filter ?? []);
       await rest(all, HERE);
-      const set = async (change: (filter: (typeof filters)[number]) => void, options: VisibilityOptions) => {
-        filters.forEach(change);
+      const set = async (asked: Parameters<HiddenPointFilter["setOptions"]>[0], options: VisibilityOptions = asked) => {
+        for (const { changes } of all) changes.length = 0;
+        for (const filter of filters) filter.setOptions(asked);
         expect(filters.map(({ settled }) => settled)).toEqual(spheres.map(() => false));
         await rest(all, HERE);
         expect(drawnOf(all)).toEqual(seen(HERE, options));
+        // At rest the final answer comes at once, and the same options are asked once.
+        for (const filter of filters) filter.setOptions({ ...asked });
+        await rest(all, HERE);
+        expect(all.map(({ changes }) => changes.length)).toEqual(spheres.map(() => 1));
       };
-      await set((filter) => (filter.exponent = 3), { exponent: 3 });
+      await set({ exponent: 3 });
       expect(filters.map(({ radius }) => radius)).toEqual(
         local.map((cloud) => cloud().visibleFrom(HERE, { exponent: 3 }).radius),
       );
-      await set((filter) => (filter.looks = 2), { looks: 2 });
-      expect(filters.map(({ exponent, looks }) => [exponent, looks])).toEqual(spheres.map(() => [undefined, 2]));
-      await set((filter) => (filter.thickness = 0.3), { looks: 2, thickness: 0.3 });
-      await set((filter) => (filter.looks = undefined), { looks: 3, thickness: 0.3 });
+      await set({ looks: 2 });
+      await set({ settle: { looks: 2, thickness: 0.3 } }, { looks: 2, thickness: 0.3 });
+      await set({ thickness: 0.3 }, { looks: 3, thickness: 0.3 });
       for (const filter of filters) {
-        expect(() => (filter.looks = 5 as never)).toThrow(expect.objectContaining({ code: "option" }));
+        for (const wrong of [{ looks: 5 }, { looks: 3, exponent: 2 }, { worker: false }, 3]) {
+          expect(() => filter.setOptions(wrong as never)).toThrow(expect.objectContaining({ code: "option" }));
+        }
         expect(() => (filter.mode = "fade" as never)).toThrow(expect.objectContaining({ code: "option" }));
         filter.mode = "dim";
         filter.mode = "hide";
-        expect([filter.looks, filter.thickness, filter.mode, filter.settled]).toEqual([undefined, 0.3, "hide", true]);
+        expect([filter.mode, filter.settled]).toEqual(["hide", true]);
       }
       expect(drawnOf(all)).toEqual(seen(HERE, { looks: 3, thickness: 0.3 }));
     });
@@ -307,5 +315,70 @@ describe("several cameras of one filter", () => {
     filter.update(resting[0]!);
     expect(one.drawn()).toHaveLength(COUNT);
     await one.dispose();
+  });
+});
+
+describe("a filter of a cloud that the page has, in the coordinates of a map", () => {
+  const local = bumpySphere(1, COUNT);
+  const origin: Place = [500_000.125, 5_000_000.25, 100];
+  const placed = (place: Place) => place.map((x, axis) => x + origin[axis]!) as [number, number, number];
+  const positions = Float64Array.from(local, (x, i) => x + origin[i % 3]!);
+  const cloud = new PointCloud(positions);
+  let dying = 0;
+  watchedWorkers((worker, number) => {
+    if (number <= dying) worker.once("message", () => void worker.terminate());
+  });
+
+  /** A filter, all that it tells, and frames until it is at rest. */
+  function filtered(options: ConstructorParameters<typeof HiddenPointFilter>[1]) {
+    const { points, geometry, camera } = pointsOf(local);
+    const filter = new HiddenPointFilter(points, { settle: false, ...options });
+    const changes: FilterChange[] = [];
+    filter.addEventListener("change", (change) => changes.push(change));
+    const rest = async (viewpoint?: Place) => {
+      do {
+        filter.update(camera, viewpoint);
+        await next();
+      } while (!filter.settled);
+      return drawn(geometry);
+    };
+    return { filter, changes, rest };
+  }
+
+  it("asks in double precision for the camera, or for the viewpoint that `update` gets", async () => {
+    const { filter, changes, rest } = filtered({ cloud, origin });
+    expect(await rest()).toEqual([...cloud.visibleFrom(placed(HERE)).indices]);
+    expect(await filter.sees({ x: 0, y: 0, z: 2 })).toBe(true);
+    expect(await rest(placed(THERE))).toEqual([...cloud.visibleFrom(placed(THERE)).indices]);
+    expect(changes.map(({ viewpoint }) => viewpoint)).toEqual([placed(HERE), placed(THERE)]);
+    for (const { visibility, viewpoint } of changes) {
+      expect(visibility).toMatchObject(cloud.visibleFrom(viewpoint!) as object);
+    }
+    filter.dispose();
+    expect(cloud.visibleFrom(placed(HERE)).count).toBeGreaterThan(0);
+  });
+
+  it("makes it again when its worker is lost, and disposes of it", async () => {
+    dying = 1;
+    const made: WorkerPointCloud[] = [];
+    const { filter, rest } = filtered({
+      origin,
+      cloud: () => WorkerPointCloud.create(positions, { workers: 1 }).then((one) => (made.push(one), one)),
+    });
+    expect(await rest()).toEqual([...cloud.visibleFrom(placed(HERE)).indices]);
+    dying = 0;
+    filter.dispose();
+    expect((await problemOf(() => made.at(-1)!.visibleFrom(placed(HERE)))).code).toBe("disposed");
+  });
+
+  it.each<[options: object, words: string]>([
+    [{ origin }, "origin needs the option cloud"],
+    [{ cloud, origin: [1, 2] }, "origin"],
+    [{ cloud: 3 }, "cloud must be"],
+    [{ cloud: new PointCloud(local.slice(3)) }, "2400 points"],
+    [{ cloud: () => Promise.resolve(new PointCloud(local.slice(3))) }, "2400 points"],
+  ])("refuses %o", async (options, words) => {
+    const problem = await problemOf(() => filtered(options).filter.ready);
+    expect(problem).toMatchObject({ message: expect.stringContaining(words) as string });
   });
 });

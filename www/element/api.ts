@@ -31,7 +31,7 @@ export interface HiddenPointCloudEventMap {
   load: CustomEvent<{ total: number; notes: string[] }>;
   /**
    * Other points are visible; also after `load`. `radius` is 0 if the inversion or the looks have none. While the camera
-   * moves, a cloud of 50,000 points and more is drawn by maps, which have no event. When it rests, the answer comes.
+   * moves, a cloud of 10,000 points and more is drawn by maps, which have no event. When it rests, the answer comes.
    */
   change: CustomEvent<{
     count: number;

@@ -1,4 +1,4 @@
-import type { TimedView } from "../ask/inquiry.ts";
+import type { TimedView } from "../view/inquiry.ts";
 import { SETTINGS } from "../settings/table.ts";
 import { canDraw } from "../view/theme.ts";
 import type * as Api from "./api.ts";

@@ -1,4 +1,4 @@
-import type { TimedView } from "../ask/inquiry.ts";
+import type { TimedView } from "../view/inquiry.ts";
 import type { Cloud } from "../cloud/cloud.ts";
 import type { LoadRequest } from "../loaders/index.ts";
 import { Moves } from "../view/moves.ts";

@@ -1,12 +1,13 @@
 import { init } from "hidden-point-removal";
 import { WorkerPointCloud } from "hidden-point-removal/worker";
-import { Inquiry, isHang } from "../ask/inquiry.ts";
-import { WorkerCloud } from "../ask/question.ts";
 import type { Up } from "../cloud/cloud.ts";
 import { loadCloud, type LoadRequest } from "../loaders/index.ts";
 import type { Sample } from "../samples/samples.ts";
 import type { Settings } from "../settings/settings.ts";
 import { type AskedView, findHome, type Home, inReachOnly, levelFrom } from "../view/framing.ts";
+import { Inquiry, isHang } from "../view/inquiry.ts";
+import { CloudPoints } from "../view/points.ts";
+import { THEMES } from "../view/theme.ts";
 import type { Opened } from "../view/viewer.ts";
 import { usableColor, usualLook } from "./wishes.ts";
 
@@ -105,6 +106,7 @@ export async function openCloud(
     return findHome(cloud, upward, sameUp ? sample : null, (sameUp ? asked : null) ?? taken, lens, whole);
   };
   const home = homeFrom(view)(up);
+  const streaming = loaded.streamed && (await import("../stream/streamed-inquiry.ts"));
   // The worker takes the copy. The page keeps the file's own coordinates for the tools.
   const shared = place.shared && cloud.count < SHARED_BELOW;
   const made = (given: Float32Array | Float64Array, report: (fraction: number) => void) =>
@@ -123,19 +125,17 @@ export async function openCloud(
   place.onHanded?.();
   const worker = await making;
   onProgress(`Finding the visible points of ${request.name}.`, null);
-  const another = async () =>
-    new WorkerCloud(await WorkerPointCloud.create(positions.slice(), { workers: 1, transfer: true }), cloud.center);
-  const points = new WorkerCloud(worker, cloud.center);
-  let inquiry = new Inquiry(points, another, cloud.radius);
+  const another = () => WorkerPointCloud.create(positions.slice(), { workers: 1, transfer: true });
+  const points = new CloudPoints(cloud, THEMES.dark);
+  const inquiry = streaming
+    ? new streaming.StreamedInquiry(worker, another, points, loaded.streamed!)
+    : new Inquiry(worker, another, points);
   try {
-    if (loaded.streamed) {
-      const { StreamedInquiry } = await import("../stream/streamed-inquiry.ts");
-      inquiry = new StreamedInquiry(points, another, cloud, loaded.streamed);
-    }
     const answer = await inquiry.first(own.freeze ?? home.viewpoint, { ...place.settings(), ...own });
     signal.throwIfAborted();
     const opened = {
       cloud,
+      points,
       positions,
       inquiry,
       home,

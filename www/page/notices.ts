@@ -2,7 +2,7 @@ import { HprError } from "hidden-point-removal";
 import { LoadProblem } from "../loaders/index.ts";
 import type { Message, MessageAction } from "../panel/message.ts";
 import type { Status } from "./status.ts";
-import { viewOf } from "../ask/question.ts";
+import { methodOf } from "../view/inquiry.ts";
 import { measuredBy } from "../open/wishes.ts";
 import type { Settings, Store } from "../settings/settings.ts";
 import type { Opened, Viewer } from "../view/viewer.ts";
@@ -26,10 +26,10 @@ export class Notices {
     this.#message.show(sentence, actions);
   }
 
-  /** Says that a view was refused. The next answer takes the sentence away. `restart` replaces a lost worker. */
-  refuseView(error: unknown, restart: () => void): void {
+  /** Says that a view was refused. The next answer takes the sentence away. */
+  refuseView(error: unknown): void {
     const sentence = sentenceOf(error, "The visible points could not be found");
-    this.error(sentence, isLoss(error) ? [{ label: "Restart", run: restart }] : []);
+    this.error(sentence);
     this.#note = sentence;
   }
 
@@ -87,10 +87,9 @@ export async function calibrate(opened: Opened, { viewer, store, message }: Part
     inversion: "spherical",
     looks: before.looks || 3,
   } satisfies Partial<Settings>;
-  const [{ viewpoint }] = measured as [(typeof measured)[number]];
   try {
-    const { method } = viewOf(viewpoint, { ...before, ...looking, thickness: "auto" });
-    const { thickness, recall } = await inquiry.cloud.points.calibrate(measured, inquiry.cloud.options(method));
+    const options = inquiry.options(methodOf({ ...before, ...looking, thickness: "auto" }));
+    const { thickness, recall } = await inquiry.cloud.calibrate(measured, options);
     if (viewer.cloud !== cloud) return;
     store.change({ ...looking, thickness });
     const seen = recall.reduce((sum, share, i) => sum + share * measured[i]!.indices.length, 0);

@@ -59,9 +59,7 @@ export function wire({
     // A picture that turns by itself is never up to date, and nobody waits for it.
     signs.busy(busy && !byMap && !turning.isOn);
   };
-  viewer.onError = (error) => {
-    notices.refuseView(error, () => viewer.restart());
-  };
+  viewer.onError = (error) => notices.refuseView(error);
 }
 
 /** Makes the parts of the page, and opens the first cloud in them. Without WebGL 2, says so. Resolves when it is open. */

@@ -1,6 +1,6 @@
 import type { Inversion } from "../settings/settings.ts";
 import { SETTINGS } from "../settings/table.ts";
-import type { Mapped, TimedView } from "../ask/inquiry.ts";
+import type { Mapped, TimedView } from "../view/inquiry.ts";
 import { byId } from "../controls/controls.ts";
 import { captionOf, methodOf, sentenceOf } from "../view/sentence.ts";
 

@@ -2,7 +2,7 @@ import { byId, Segmented, Slider } from "../controls/controls.ts";
 import { canLook, rowOf, type Settings, type Store, USUAL_SETTINGS } from "../settings/settings.ts";
 import { SLIDERS } from "../settings/limits.ts";
 import type { SettingName } from "../settings/table.ts";
-import type { ViewAnswer } from "../ask/question.ts";
+import type { TimedView } from "../view/inquiry.ts";
 import { type Theme, type ThemeName, THEMES } from "../view/theme.ts";
 import type { Cloud } from "../cloud/cloud.ts";
 import { colorChoices, type Legend } from "../view/colors.ts";
@@ -53,7 +53,7 @@ export function unfoldUnusual(settings: Settings): void {
 }
 
 /** The radius of one hull: automatic, until the slider is moved. The returned function shows that of an answer. */
-export function bindRadius(store: Store): (answer: ViewAnswer) => void {
+export function bindRadius(store: Store): (answer: TimedView) => void {
   const slider = new Slider("exponent", SLIDERS.exponent.text, (exponent) => store.change({ radius: { exponent } }));
   slider.clear();
   const automatic = byId("radius-auto");
@@ -146,7 +146,7 @@ function element(tag: string, name: string, text = ""): HTMLElement {
 /** All controls of the panel: they change the settings, and show them. */
 export class Panel {
   /** Shows the radius that an answer was found with. */
-  readonly follow: (answer: ViewAnswer) => void;
+  readonly follow: (answer: TimedView) => void;
   readonly #color: ColorControl;
   /** The settings that a reset goes back to. */
   usual: Pick<Settings, "fieldOfView"> = USUAL_SETTINGS;

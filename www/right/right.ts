@@ -1,5 +1,5 @@
 import "./right.css";
-import { operatorOf, viewOf, type ViewQuestion } from "../ask/question.ts";
+import { methodOf, operatorOf, type ViewQuestion } from "../view/inquiry.ts";
 import { nextFrame } from "../controls/controls.ts";
 import { pictureFrom, picturesAround, Projected, VISIBLE, zBuffer } from "../compare/zbuffer.ts";
 import { traced } from "../compare/truth.ts";
@@ -34,8 +34,8 @@ export interface Judged {
 function questionsAt(at: Viewpoint): [method: string, question: ViewQuestion][] {
   const settings = { ...USUAL_SETTINGS, looks: 3 as const };
   return [
-    ["One hull, automatic radius", { ...viewOf(at, settings), method: operatorOf(settings) }],
-    ["Three looks, as on this page", viewOf(at, settings)],
+    ["One hull, automatic radius", { viewpoint: at, method: operatorOf(settings) }],
+    ["Three looks, as on this page", { viewpoint: at, method: methodOf(settings) }],
   ];
 }
 
@@ -55,11 +55,11 @@ export async function judge(
   const truth = await traced(scene, surface, at, signal, onProgress);
 
   const projected = new Projected(cloud.local, pictureFrom(viewer, at));
-  const said = zBuffer(projected, projected.splatFor(inquiry.spacing));
+  const said = zBuffer(projected, projected.splatFor(inquiry.cloud.spacing));
   const buffered = said.map((kind) => (kind === VISIBLE ? 1 : 0));
   const verdicts = [verdictOf("Z-buffer of this picture", buffered)];
   for (const [method, question] of questionsAt(at)) {
-    const { visibility } = await inquiry.aside(question);
+    const visibility = await inquiry.aside(question);
     signal.throwIfAborted();
     verdicts.push(verdictOf(method, visibility.mask()));
   }
@@ -118,7 +118,7 @@ export async function judgeByStations(
     const mask = new Uint8Array(cloud.count);
     for (const picture of picturesAround(cloud, viewpoint)) {
       const projected = new Projected(cloud.local, picture);
-      const said = zBuffer(projected, projected.splatFor(inquiry.spacing));
+      const said = zBuffer(projected, projected.splatFor(inquiry.cloud.spacing));
       for (let point = 0; point < mask.length; point++) if (said[point] === VISIBLE) mask[point] = 1;
       // The dialog may be closed between two pictures.
       await nextFrame();
@@ -126,7 +126,7 @@ export async function judgeByStations(
     }
     note("Z-buffer of six pictures", mask, indices);
     for (const [method, question] of questionsAt(viewpoint)) {
-      const { visibility } = await inquiry.aside(question);
+      const visibility = await inquiry.aside(question);
       signal.throwIfAborted();
       note(method, visibility.mask(), indices);
     }

@@ -1,10 +1,12 @@
 import type { Settings, Viewpoint } from "../settings/settings.ts";
 import { OctreeReader, type StreamMethod, type StreamStep, type StreamView } from "./reader.ts";
+import type { MergeOptions } from "hidden-point-removal";
 import { WorkerPointCloud } from "hidden-point-removal/worker";
-import { type Detail, Inquiry, type TimedView } from "../ask/inquiry.ts";
-import { isSamePlace, viewOf, WorkerCloud } from "../ask/question.ts";
 import type { Cloud, Streamed } from "../cloud/cloud.ts";
 import { spacingOf } from "../cloud/spacing.ts";
+import { type Detail, Inquiry, isSamePlace, methodOf, type TimedView } from "../view/inquiry.ts";
+import { CloudPoints } from "../view/points.ts";
+import { THEMES } from "../view/theme.ts";
 
 /**
  * How a streamed octree is seen with these settings. `null`: they need all points at once. The automatic radius
@@ -48,13 +50,25 @@ export const ONLY_OVERVIEW =
 /** The overview's inquiry: it notes when the camera or the settings have changed. */
 type Leader = Pick<Inquiry, "follow" | "busy">;
 
-/** Answers the tools' questions about the points of a view. The picture's questions go to the overview. */
+type Said = Pick<TimedView, "kind" | "asked" | "question"> & NonNullable<TimedView["whole"]>;
+
+/** Asks once about the points of a view, and answers the tools' questions. The picture's later questions go to the overview. */
 class DetailInquiry extends Inquiry {
   readonly #leader: Leader;
+  readonly #said: Said;
 
-  constructor(cloud: WorkerCloud, another: () => Promise<WorkerCloud>, size: number, leader: Leader) {
-    super(cloud, another, size);
+  constructor(
+    cloud: WorkerPointCloud,
+    another: () => Promise<WorkerPointCloud>,
+    points: CloudPoints,
+    leader: Leader,
+    merge: MergeOptions,
+    said: Said,
+  ) {
+    super(cloud, another, points);
     this.#leader = leader;
+    this.#said = said;
+    this.filter.setOptions({ ...merge, settle: false });
   }
 
   override get busy(): boolean {
@@ -62,7 +76,14 @@ class DetailInquiry extends Inquiry {
   }
 
   override follow(viewpoint: Viewpoint, settings: Settings): void {
-    this.#leader.follow(viewpoint, settings);
+    this.filter.frozen = this.answer !== null;
+    this.look(viewpoint);
+    if (this.filter.frozen) this.#leader.follow(viewpoint, settings);
+  }
+
+  protected override told(view: TimedView): TimedView {
+    const { total, sentence, ...said } = this.#said;
+    return { ...view, ...said, whole: { total, sentence }, milliseconds: performance.now() - said.asked };
   }
 }
 
@@ -72,7 +93,8 @@ export async function detailOf(
   viewpoint: Viewpoint,
   overview: Cloud,
   leader: Leader,
-  { total, sentence, ...said }: Pick<TimedView, "kind" | "asked" | "question"> & NonNullable<TimedView["whole"]>,
+  settings: Settings,
+  said: Said,
 ): Promise<Detail> {
   const { center, size, radius, body, facts } = overview;
   const [x, y, z] = body?.size ?? size;
@@ -91,17 +113,13 @@ export async function detailOf(
     size,
     radius,
     body,
-    spacing: spacingOf(local, Math.sqrt((2 * (x * y + y * z + z * x)) / (exact ? total : points))),
+    spacing: spacingOf(local, Math.sqrt((2 * (x * y + y * z + z * x)) / (exact ? said.total : points))),
   };
-  const made = async () => new WorkerCloud(await WorkerPointCloud.create(positions, { workers: 1 }), center);
-  const worker = await made();
-  const inquiry = new DetailInquiry(worker, made, radius, leader);
+  const made = () => WorkerPointCloud.create(positions, { workers: 1 });
+  const drawn = new CloudPoints(cloud, THEMES.dark);
+  const inquiry = new DetailInquiry(await made(), made, drawn, leader, merge, said);
   try {
-    const visibility = await worker.points.visibleFrom(viewpoint, merge);
-    const milliseconds = performance.now() - said.asked;
-    const whole = { total, sentence };
-    const answer = { ...said, whole, visibility, note: null, milliseconds };
-    return { cloud, positions, inquiry, answer };
+    return { points: drawn, positions, inquiry, answer: await inquiry.first(viewpoint, settings) };
   } catch (error) {
     inquiry.dispose();
     throw error;
@@ -135,9 +153,14 @@ export class StreamedInquiry extends Inquiry {
   /** The earliest time of the next step. */
   #notBefore = 0;
 
-  constructor(cloud: WorkerCloud, another: () => Promise<WorkerCloud>, overview: Cloud, streamed: Streamed) {
-    super(cloud, another, overview.radius);
-    this.#overview = overview;
+  constructor(
+    cloud: WorkerPointCloud,
+    another: () => Promise<WorkerPointCloud>,
+    points: CloudPoints,
+    streamed: Streamed,
+  ) {
+    super(cloud, another, points);
+    this.#overview = points.cloud;
     this.#total = streamed.points;
     this.#reader = new OctreeReader(streamed);
   }
@@ -228,8 +251,9 @@ export class StreamedInquiry extends Inquiry {
 
   async #show(view: StreamView, step: StreamStep, isLast: boolean, asked: number): Promise<void> {
     const begun = performance.now();
-    const question = viewOf(view.viewpoint, overviewSettings(this.#settings!));
-    const detail = await detailOf(step, view.viewpoint, this.#overview, this, {
+    const settings = this.#settings!;
+    const question = { viewpoint: view.viewpoint, method: methodOf(overviewSettings(settings)) };
+    const detail = await detailOf(step, view.viewpoint, this.#overview, this, settings, {
       kind: step.exact ? "operator" : "part",
       asked,
       question,
@@ -247,7 +271,7 @@ export class StreamedInquiry extends Inquiry {
       this.#stop();
       return;
     }
-    this.#count = detail.cloud.count;
+    this.#count = detail.points.cloud.count;
     const now = performance.now();
     this.#notBefore = now + Math.max(CALM.least, CALM.times * (now - begun));
   }

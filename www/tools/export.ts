@@ -1,7 +1,7 @@
 import { BATCH, type Content } from "../../src/ts/formats/write/content.js";
 import type { Cloud } from "../cloud/cloud.ts";
 import type { Stage } from "../view/stage.ts";
-import type { TimedView } from "../ask/inquiry.ts";
+import type { TimedView } from "../view/inquiry.ts";
 import { byId } from "../controls/controls.ts";
 import { coordinatesAt, indexInFile } from "./make.ts";
 import type { Bench, Tool } from "./tool.ts";

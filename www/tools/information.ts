@@ -139,7 +139,7 @@ export class Information {
     const rows: [string, string][] = [["Size", `${size.join(" × ")}\u00a0${unit?.name ?? "units"}`]];
     // Of an octree, only the coarser levels are here.
     if (answer.whole) return rows;
-    const { spacing } = inquiry.cloud.points;
+    const { spacing } = inquiry.cloud;
     if (spacing > 0 && isOneUnit) rows.push(["Spacing", measured(Number(spacing.toPrecision(3)), unit)]);
     return rows;
   }

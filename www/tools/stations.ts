@@ -1,7 +1,6 @@
 import { OWN_COLORS, type Settings, type Store, type Viewpoint } from "../settings/settings.ts";
 import { button, make, measuresOf, numberField, tableRow } from "./make.ts";
-import type { Inquiry } from "../ask/inquiry.ts";
-import type { Method } from "../ask/question.ts";
+import { type Inquiry, type Method, methodOf } from "../view/inquiry.ts";
 import { STATION_COLORS } from "../settings/table.ts";
 import type { Spot } from "./find.ts";
 import type { Mark } from "./marks.ts";
@@ -168,7 +167,7 @@ export class ViewshedFinder {
     const masks: Uint8Array[] = [];
     const used = new Set<string>();
     for (const [i, { at }] of stations.entries()) {
-      const method = this.#inquiry.methodOf(settings);
+      const method = methodOf(settings);
       const key = JSON.stringify([at, method]);
       used.add(key);
       const mask = this.#seen.get(key) ?? (await this.#ask(at, method, signal));
@@ -177,12 +176,12 @@ export class ViewshedFinder {
       onProgress((i + 1) / stations.length);
     }
     for (const key of this.#seen.keys()) if (!used.has(key)) this.#seen.delete(key);
-    return summed(this.#inquiry.cloud.points.length, masks);
+    return summed(this.#inquiry.cloud.length, masks);
   }
 
   async #ask(at: Viewpoint, method: Method, signal: AbortSignal): Promise<Uint8Array> {
-    const { cloud } = this.#inquiry;
-    return Uint8Array.from(await cloud.points.coverage([at], { ...cloud.options(method), signal }));
+    const options = this.#inquiry.options(method);
+    return Uint8Array.from(await this.#inquiry.cloud.coverage([at], { ...options, signal }));
   }
 }
 
@@ -240,8 +239,7 @@ export class Stations implements Tool {
     store.follow((now, before) => {
       const { viewer } = bench;
       if (!viewer.cloud) return;
-      const { inquiry } = viewer.scene;
-      const changed = JSON.stringify(inquiry.methodOf(now)) !== JSON.stringify(inquiry.methodOf(before));
+      const changed = JSON.stringify(methodOf(now)) !== JSON.stringify(methodOf(before));
       if (changed && this.#stations.length > 0) this.#changed();
     });
     this.#invite();

@@ -8,8 +8,7 @@ import {
   ShaderMaterial,
   Vector3,
 } from "three";
-import { display } from "./attributes.ts";
-import type { Theme } from "./theme.ts";
+import { display, type Theme } from "./theme.ts";
 
 const vertexShader = /* glsl */ `
   void main() {

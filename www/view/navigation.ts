@@ -12,8 +12,6 @@ export interface Pose {
 
 /** Orbit, pan and zoom by mouse and touch (OrbitControls) and by keys while the canvas has the focus. */
 export class Navigation {
-  /** Called when the camera has been moved. */
-  onMove: () => void = () => undefined;
   readonly #camera: PerspectiveCamera;
   readonly #canvas: HTMLCanvasElement;
   /** Whether the wheel and one finger scroll the page around, as long as the picture does not have the focus. */
@@ -117,7 +115,6 @@ export class Navigation {
     this.#controls.update();
     // As in the first view: the answer is for exactly the place that was asked for.
     if (share === 1) this.#camera.position.copy(to.at);
-    this.onMove();
     return share < 1;
   }
 
@@ -140,7 +137,6 @@ export class Navigation {
     controls.update();
     // The controls compute with angles and are a few bits off. The answer is for exactly the place that was asked for.
     this.#camera.position.copy(at);
-    controls.addEventListener("change", () => this.onMove());
     return controls;
   }
 

@@ -2,22 +2,39 @@ import {
   BufferAttribute,
   BufferGeometry,
   Color,
-  DataTexture,
   DynamicDrawUsage,
-  FloatType,
   Points,
-  RedFormat,
   ShaderMaterial,
+  Sphere,
   Vector2,
   Vector3,
-  Vector4,
 } from "three";
-import { VisibilityMap } from "hidden-point-removal";
-import type { Cloud } from "../cloud/cloud.ts";
-import type { HiddenMode } from "../settings/settings.ts";
-import { LOCAL_SPACING } from "../cloud/spacing.ts";
-import { type CloudAttributes, display, TINT_SHADER } from "./attributes.ts";
-import type { Theme } from "./theme.ts";
+import { type Cloud, type Up, upVector } from "../cloud/cloud.ts";
+import { LOCAL_SPACING, spreadOf } from "../cloud/spacing.ts";
+import { display, type Theme } from "./theme.ts";
+
+/** The share of a selected point's own color that is covered. */
+const CHOSEN_COVERAGE = 0.65;
+
+/** The text before the `main` of a vertex shader: the color of a vertex. */
+const TINT_SHADER = /* glsl */ `
+  uniform vec3 up, low, high;
+  uniform vec2 heights;
+  uniform bool colored;
+  uniform vec3 chosenColor;
+  attribute float chosen;
+  attribute vec3 color;
+  attribute float spread;
+
+  vec3 ownTint() {
+    if (colored) return color;
+    return mix(low, high, clamp((dot(position, up) - heights.x) / (heights.y - heights.x), 0.0, 1.0));
+  }
+
+  vec3 chosenOr(vec3 tint) {
+    return mix(tint, chosenColor, ${CHOSEN_COVERAGE.toFixed(2)} * chosen);
+  }
+`;
 
 /** The greatest width of a point in pixels: a wider one would be a balloon. */
 export const MOST_PIXELS = 160;
@@ -36,20 +53,12 @@ const vertexShader = /* glsl */ `
   uniform float least, most;
   uniform vec3 cover;
   uniform float coverage;
-  /* 0: all points are drawn. 1: those that the map does not hide. -1: those that it hides. */
-  uniform float byMap;
   /* The part of the picture that is shown, from left to right in clip space, and the width of a pixel there. */
   uniform vec3 part;
-  ${VisibilityMap.prototype.glsl}
   varying vec3 tint;
   varying float size;
 
   void main() {
-    if (byMap != 0.0 && (byMap > 0.0) == hidden(position)) {
-      gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
-      gl_PointSize = 0.0;
-      return;
-    }
     gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
     size = clamp(width * ${LOCAL_SPACING} * pixels / gl_Position.w, least, max(least, most));
     gl_PointSize = size;
@@ -81,149 +90,121 @@ const HIDDEN_WIDTH = 0.45;
 type Draw = Points<BufferGeometry, ShaderMaterial>;
 
 /**
- * The cloud in several draws of the same points: `solid` for the visible ones, `ghost` for the hidden ones. They share one
- * index buffer, which is written for each answer: first the visible points, then the hidden ones, if these are drawn.
- *
- *      index   [ visible …… | hidden …………… ]
- *                solid ────   ghost ───────
- *
- * While the camera moves, both draw all points without an index, and the vertex shader leaves out points by a map.
+ * The cloud in two draws of the same points. `solid` draws the visible ones: a filter of the package leaves out the
+ * others, and draws them with the material `ghost` if they are wanted. `all` draws all points, as any viewer shows them.
  */
 export class CloudPoints {
+  readonly cloud: Cloud;
   readonly solid: Draw;
-  readonly ghost: Draw;
-  /** All points, whatever the answer is, as any viewer shows them. */
+  readonly ghost: ShaderMaterial;
   readonly all: Draw;
-  readonly #order: BufferAttribute;
-  readonly #spacing: number;
+  /** Shared by all materials of the cloud. */
+  readonly #shared = {
+    up: { value: new Vector3(0, 1, 0) },
+    heights: { value: new Vector2(-1, 1) },
+    // The colors are not converted, because the shading pass and the screen both take display colors.
+    low: { value: new Color() },
+    high: { value: new Color() },
+    chosenColor: { value: new Color() },
+    colored: { value: false },
+  };
   readonly #draws: Draw[];
   #theme: Theme;
   #ghostly = false;
-  #visible: Uint32Array = new Uint32Array();
-  /** The uniforms of a map, shared by all draws. */
-  readonly #map = {
-    hprDepths: { value: null as DataTexture | null },
-    hprViewpoint: { value: new Vector3() },
-    hprMargins: { value: new Vector4() },
-  };
-  #hiddenListed = true;
+  #color: BufferAttribute | null = null;
+  #chosen: BufferAttribute | null = null;
 
-  constructor(cloud: Cloud, attributes: CloudAttributes, theme: Theme) {
+  constructor(cloud: Cloud, theme: Theme) {
+    this.cloud = cloud;
     this.#theme = theme;
-    this.#order = new BufferAttribute(new Uint32Array(cloud.count), 1);
-    this.#order.setUsage(DynamicDrawUsage);
-    this.#spacing = cloud.spacing.typical;
-
-    const draw = (coverage: number, order: BufferAttribute | null = this.#order) => {
-      const geometry = new BufferGeometry();
-      attributes.addTo(geometry);
-      geometry.setIndex(order);
-      const material = new ShaderMaterial({
-        vertexShader,
-        fragmentShader,
-        uniforms: {
-          ...attributes.uniforms,
-          width: { value: 0 },
-          pixels: { value: 1 },
-          least: { value: 1 },
-          most: { value: 1 },
-          cover: { value: new Color() },
-          coverage: { value: coverage },
-          byMap: { value: 0 },
-          part: { value: new Vector3(-1, 1, 0) },
-          ...this.#map,
-        },
-      });
-      const points = new Points(geometry, material);
+    const position = new BufferAttribute(cloud.local, 3);
+    const spread = new BufferAttribute(cloud.spacing.local, 1, true);
+    // Otherwise three.js computes it from all points, once for each geometry.
+    const bounds = new Sphere(new Vector3(), cloud.radius);
+    const draw = (most: number, ...materials: [material: ShaderMaterial, least: number][]): Draw => {
+      const geometry = new BufferGeometry().setAttribute("position", position).setAttribute("spread", spread);
+      geometry.boundingSphere = bounds;
+      const points = new Points(geometry, materials[0]![0]);
       points.frustumCulled = false;
+      points.onBeforeRender = (renderer, scene, camera) => {
+        const { x: width, y: height } = renderer.getDrawingBufferSize(new Vector2());
+        const ratio = renderer.getPixelRatio();
+        const [from, to] = scene.userData["part"] as [number, number];
+        const pixels = (camera.projectionMatrix.elements[5] * height) / 2;
+        for (const [{ uniforms }, share] of materials) {
+          const least = share * leastPixels(cloud.count, width / ratio) * ratio;
+          const part = new Vector3(2 * from - 1, 2 * to - 1, 2 / width);
+          for (const [name, value] of Object.entries({ part, pixels, least, most: most * ratio })) {
+            uniforms[name]!.value = value;
+          }
+        }
+      };
       return points;
     };
-    this.solid = draw(0);
-    this.ghost = draw(COVERAGE);
-    this.all = draw(0, null);
-    this.#draws = [this.solid, this.ghost, this.all];
-    for (const each of this.#draws) {
-      each.onBeforeRender = (renderer, scene, camera) => {
-        const { x: width, y: height } = renderer.getDrawingBufferSize(new Vector2());
-        const { uniforms } = each.material;
-        const [from, to] = scene.userData["part"] as [number, number];
-        (uniforms["part"]!.value as Vector3).set(2 * from - 1, 2 * to - 1, 2 / width);
-        uniforms["pixels"]!.value = (camera.projectionMatrix.elements[5] * height) / 2;
-        const least = leastPixels(cloud.count, width / renderer.getPixelRatio()) * renderer.getPixelRatio();
-        uniforms["most"]!.value = (each === this.all ? MOST_SMALL : MOST_PIXELS) * renderer.getPixelRatio();
-        // Visible points look solid beside all points, whose far side shows between them.
-        const share = each === this.ghost ? 1 / 1.5 : each === this.solid ? 1.2 : 1 / 1.2;
-        uniforms["least"]!.value = share * least;
-      };
+    this.ghost = this.#material(COVERAGE);
+    // Visible points look solid beside all points, whose far side shows between them.
+    this.solid = draw(MOST_PIXELS, [this.#material(0), 1.2], [this.ghost, 1 / 1.5]);
+    this.all = draw(MOST_SMALL, [this.#material(0), 1 / 1.2]);
+    this.#draws = [this.solid, this.all];
+    this.setTints(null);
+    this.setTheme(theme);
+  }
+
+  #material(coverage: number): ShaderMaterial {
+    const uniforms = { width: 0, pixels: 1, least: 1, most: 1, cover: new Color(), coverage, part: new Vector3() };
+    const own = Object.fromEntries(Object.entries(uniforms).map(([name, value]) => [name, { value }]));
+    return new ShaderMaterial({ vertexShader, fragmentShader, uniforms: { ...this.#shared, ...own } });
+  }
+
+  /** Sets the points that are selected. */
+  setChosen(indices: Uint32Array): void {
+    if (!this.#chosen) {
+      if (indices.length === 0) return;
+      this.#chosen = new BufferAttribute(new Uint8Array(this.cloud.count), 1, true).setUsage(DynamicDrawUsage);
+      for (const { geometry } of this.#draws) geometry.setAttribute("chosen", this.#chosen);
     }
-    this.show("off");
+    const marks = this.#chosen.array as Uint8Array;
+    marks.fill(0);
+    for (const index of indices) marks[index] = 255;
+    this.#chosen.needsUpdate = true;
   }
 
-  /** The answer for a viewpoint: ascending indices of the visible points. */
-  setVisible(indices: Uint32Array): void {
-    this.#visible = indices;
-    this.#order.clearUpdateRanges();
-    (this.#order.array as Uint32Array).set(indices);
-    this.#upload(0, indices.length);
-    this.#drawBy(0);
-    this.solid.geometry.setDrawRange(0, indices.length);
-    this.ghost.geometry.setDrawRange(indices.length, this.#order.count - indices.length);
-    this.#hiddenListed = false;
-    if (this.ghost.visible) this.#listHidden();
+  setUp(up: Up): void {
+    this.#shared.up.value.set(...upVector(up));
+    this.#shared.heights.value.copy(rampHeights(this.cloud.local, this.#shared.up.value));
   }
 
-  /** Leaves out points by a map, until the next answer. Its positions are relative to the middle of the cloud. */
-  setMap({ data, uniforms }: VisibilityMap): void {
-    this.#map.hprDepths.value?.dispose();
-    const isEmpty = data.length === 0;
-    const texture = isEmpty ? null : new DataTexture(data, 256, data.length / 256, RedFormat, FloatType);
-    if (texture !== null) texture.needsUpdate = true;
-    this.#map.hprDepths.value = texture;
-    this.#map.hprViewpoint.value.fromArray(uniforms.hprViewpoint);
-    this.#map.hprMargins.value.fromArray(uniforms.hprMargins);
-    this.#drawBy(isEmpty ? 0 : 1, null);
-    for (const { geometry } of [this.solid, this.ghost]) geometry.setDrawRange(0, this.#order.count);
-    if (isEmpty) this.ghost.geometry.setDrawRange(0, 0);
-  }
-
-  #drawBy(mode: 0 | 1, order: BufferAttribute | null = this.#order): void {
-    for (const draw of [this.solid, this.ghost]) {
-      draw.geometry.setIndex(order);
-      draw.material.uniforms["byMap"]!.value = draw === this.solid ? mode : -mode;
+  /** Takes three bytes for each point. `null`: the file's own colors, or two tones if it has none. */
+  setTints(tints: Uint8Array | null): void {
+    const colors = tints ?? this.cloud.colors;
+    this.#shared.colored.value = colors !== null;
+    if (!colors) return;
+    if (this.#color) {
+      (this.#color.array as Uint8Array).set(colors);
+      this.#color.needsUpdate = true;
+      return;
     }
+    // This is a copy, because the file's own colors must not change.
+    this.#color = new BufferAttribute(colors.slice(), 3, true).setUsage(DynamicDrawUsage);
+    for (const { geometry } of this.#draws) geometry.setAttribute("color", this.#color);
   }
 
-  #listHidden(): void {
-    this.#hiddenListed = true;
-    const visible = this.#visible;
-    const order = this.#order.array as Uint32Array;
-    let at = visible.length;
-    let next = 0;
-    for (let i = 0; i < visible.length; i++) {
-      const index = visible[i]!;
-      while (next < index) order[at++] = next++;
-      next = index + 1;
-    }
-    while (next < order.length) order[at++] = next++;
-    this.#upload(visible.length, order.length);
-  }
-
-  /** Sends a range of the order to the graphics card. Then three.js forgets the range. */
-  #upload(from: number, to: number): void {
-    this.#order.addUpdateRange(from, to - from);
-    this.#order.needsUpdate = true;
-  }
-
-  show(mode: HiddenMode): void {
-    this.ghost.visible = mode !== "off";
-    if (this.ghost.visible && !this.#hiddenListed) this.#listHidden();
-    this.#ghostly = mode === "dimmed";
+  /** How hidden points look, if the filter draws them. */
+  setGhostly(ghostly: boolean): void {
+    this.#ghostly = ghostly;
     this.setTheme(this.#theme);
   }
 
   setTheme(theme: Theme): void {
     this.#theme = theme;
-    this.ghost.material.uniforms["cover"]!.value = display(this.#ghostly ? theme.hiddenDimmed : theme.hidden);
+    for (const [name, color] of [
+      ["low", theme.low],
+      ["high", theme.high],
+      ["chosenColor", theme.chosen],
+    ] as const) {
+      this.#shared[name].value = display(color);
+    }
+    this.ghost.uniforms["cover"]!.value = display(this.#ghostly ? theme.hiddenDimmed : theme.hidden);
   }
 
   /**
@@ -231,18 +212,19 @@ export class CloudPoints {
    * Returns the width of a typical point in the cloud's units.
    */
   setPointSize(size: number, through: boolean): number {
-    const set = (draw: Draw, spacings: number) => (draw.material.uniforms["width"]!.value = spacings * this.#spacing);
+    const set = ({ uniforms }: ShaderMaterial, spacings: number): number =>
+      (uniforms["width"]!.value = spacings * this.cloud.spacing.typical);
     set(this.ghost, HIDDEN_WIDTH);
-    set(this.all, SMALL);
-    return set(this.solid, (through ? SMALL : COVERING) * size);
+    set(this.all.material, SMALL);
+    return set(this.solid.material, (through ? SMALL : COVERING) * size);
   }
 
   dispose(): void {
-    this.#map.hprDepths.value?.dispose();
     for (const { geometry, material } of this.#draws) {
       geometry.dispose();
       material.dispose();
     }
+    this.ghost.dispose();
   }
 }
 
@@ -252,4 +234,12 @@ export class CloudPoints {
  */
 function leastPixels(count: number, width: number): number {
   return count < 100 ? 6 : count < 1000 ? 3 : Math.min(1.5, Math.max(1, width / 700));
+}
+/** The heights of the first and the last color. A few stray points below and above do not count. */
+function rampHeights(local: Float32Array, { x, y, z }: Vector3): Vector2 {
+  const [low, high] = spreadOf(
+    local.length / 3,
+    (i) => local[3 * i]! * x + local[3 * i + 1]! * y + local[3 * i + 2]! * z,
+  );
+  return high > low ? new Vector2(low, high) : new Vector2(low - 1, low + 1);
 }

@@ -1,4 +1,4 @@
-import type { TimedView } from "../ask/inquiry.ts";
+import type { TimedView } from "../view/inquiry.ts";
 
 const number = new Intl.NumberFormat("en-US");
 

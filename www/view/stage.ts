@@ -1,7 +1,6 @@
 import { type Object3D, PerspectiveCamera, Scene, Vector2, Vector3, WebGLRenderer } from "three";
-import { display } from "./attributes.ts";
 import { type AllPoints, EyeDome } from "./eye-dome.ts";
-import { type Theme, THEMES } from "./theme.ts";
+import { display, type Theme, THEMES } from "./theme.ts";
 
 /** The canvas: one camera, the shaded points, and an overlay among them without shading. */
 export class Stage {

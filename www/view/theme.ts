@@ -1,3 +1,5 @@
+import { Color } from "three";
+
 /** The colors of the canvas. The page around it has the same colors from styles/theme.css. */
 export interface Theme {
   background: string;
@@ -56,4 +58,9 @@ const CONTEXT: WebGLContextAttributes = { alpha: true, antialias: false, powerPr
 /** Whether this browser can draw. Ask it before three.js, which would log an error. three.js then uses this context. */
 export function canDraw(canvas: HTMLCanvasElement): boolean {
   return canvas.getContext("webgl2", CONTEXT) !== null;
+}
+
+/** The display color for the shaders. The colors of three.js are linear. */
+export function display(color: string): Color {
+  return new Color(color).convertLinearToSRGB();
 }

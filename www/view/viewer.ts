@@ -1,22 +1,22 @@
 import { Matrix4, Quaternion } from "three";
-import { isSamePlace } from "../ask/question.ts";
-import type { Detail, Inquiry, Mapped, TimedView } from "../ask/inquiry.ts";
+import { HiddenPointFilter } from "hidden-point-removal/three";
 import type { Attribute, Cloud, FileStation, Up } from "../cloud/cloud.ts";
 import { prepareCloud } from "../cloud/prepare.ts";
 import type { KnownSurface } from "../samples/samples.ts";
 import type { Settings, Store, Viewpoint } from "../settings/settings.ts";
-import { CloudAttributes } from "./attributes.ts";
 import { colorBy, type Legend } from "./colors.ts";
 import { type Home, inFile, inLocal } from "./framing.ts";
+import { type Detail, type Inquiry, isSamePlace, type Mapped, type TimedView } from "./inquiry.ts";
 import { ViewpointMarker } from "./marker.ts";
 import { Navigation } from "./navigation.ts";
 import { CloudPoints } from "./points.ts";
 import { Stage } from "./stage.ts";
 import { type Theme, THEMES } from "./theme.ts";
 
-/** A cloud that is ready to be shown, with the first answer about it. */
+/** A cloud that is ready to be shown, with the last answer about it. */
 export interface Opened {
   cloud: Cloud;
+  points: CloudPoints;
   /** The file's own coordinates. */
   positions: Float32Array | Float64Array;
   inquiry: Inquiry;
@@ -31,8 +31,6 @@ export interface Opened {
 }
 
 type Shown = Opened & {
-  attributes: CloudAttributes;
-  points: CloudPoints;
   /** The viewpoint whose points are drawn: that of the answer, or that of a map. */
   from: Viewpoint;
   /** The viewpoint of the frame before. */
@@ -70,9 +68,6 @@ export class Viewer {
   /** The cloud, while points that were read for one viewpoint are shown instead of it. */
   #overview: Shown | null = null;
   #theme = THEMES.dark;
-  /** Whether the cloud has not been drawn yet. */
-  #isNew = false;
-  #isFinal = false;
 
   /**
    * `polite`: the wheel and one finger over the picture scroll the page around it. `covered`: how many CSS pixels at the
@@ -86,10 +81,8 @@ export class Viewer {
     this.stage.onFrame = () => {
       this.#marker.follow(this.stage.camera);
       this.#inquire();
-      this.#isNew = false;
       this.onFrame();
     };
-    this.navigation.onMove = () => this.#inquire();
     // Before the first move, the whole cloud stays in the picture. After it, the camera stays in its place.
     this.stage.onResize = () => {
       if (this.isHome) this.reset();
@@ -100,7 +93,10 @@ export class Viewer {
   /** Lets the first picture not wait for the graphics card's compiler. Call it before the first cloud is shown. */
   warmUp(): void {
     const { cloud } = prepareCloud({ positions: new Float32Array(3), colors: null });
-    this.stage.compile(new CloudPoints(cloud, new CloudAttributes(cloud, this.#theme), this.#theme).solid);
+    const { solid } = new CloudPoints(cloud, this.#theme);
+    // A filter changes the shader. This one never gets a cloud.
+    new HiddenPointFilter(solid, { cloud: () => new Promise(() => undefined) }).update(this.stage.camera);
+    this.stage.compile(solid);
   }
 
   /** The cloud on screen. */
@@ -172,21 +168,18 @@ export class Viewer {
 
   /** Shows a cloud, after `clear`. */
   show(opened: Opened): void {
-    const { inquiry, answer, home } = opened;
+    const { inquiry, home } = opened;
     const shown = (this.#shown = this.#made(opened));
     inquiry.onDetail = (detail) => this.#exchange(shown, detail);
     this.#enter(shown, () => this.navigation.setHome(home.pose));
-    inquiry.onView(answer);
-    this.#isNew = true;
+    inquiry.onView(inquiry.answer!);
     this.#inquire();
   }
 
   #made(opened: Opened): Shown {
     const { cloud, inquiry } = opened;
-    const attributes = new CloudAttributes(cloud, this.#theme);
-    const points = new CloudPoints(cloud, attributes, this.#theme);
     const from = opened.answer.question.viewpoint;
-    const shown: Shown = { ...opened, attributes, points, from, before: from, byMap: false, frozen: null };
+    const shown: Shown = { ...opened, from, before: from, byMap: false, frozen: null };
     inquiry.onView = (next) => {
       // Its answer may come while other points are shown instead.
       if (this.#shown !== shown) return;
@@ -197,7 +190,6 @@ export class Viewer {
       if (this.#shown !== shown) return;
       shown.from = mapped.viewpoint;
       shown.byMap = true;
-      points.setMap(mapped.map);
       this.stage.invalidate();
       this.onMap(mapped);
     };
@@ -207,7 +199,8 @@ export class Viewer {
 
   /** Brings a cloud into the picture. `place` may move the camera. */
   #enter({ points }: Shown, place: () => void): void {
-    this.stage.points.add(points.solid, points.ghost);
+    points.setTheme(this.#theme);
+    this.stage.points.add(points.solid);
     this.stage.all.add(points.all);
     place();
     this.#applyLook(this.#store.current);
@@ -225,9 +218,7 @@ export class Viewer {
     remove(before);
     if (before !== overview) this.#end(before);
     this.#overview = detail && overview;
-    this.#shown = detail ? this.#made({ ...overview, ...detail }) : overview;
-    // The theme may have changed meanwhile.
-    for (const part of [overview.attributes, overview.points]) part.setTheme(this.#theme);
+    this.#shown = detail ? this.#made({ ...overview, ...detail, cloud: detail.points.cloud }) : overview;
     this.#enter(this.#shown, () => undefined);
     this.onDetail();
     this.#shown.inquiry.onView(this.#shown.answer);
@@ -245,7 +236,7 @@ export class Viewer {
 
   /** Tints the points that are selected. */
   setChosen(indices: Uint32Array): void {
-    this.#shown?.attributes.setChosen(indices);
+    this.#shown?.points.setChosen(indices);
     this.stage.invalidate();
   }
 
@@ -261,14 +252,8 @@ export class Viewer {
     this.stage.setTheme(theme);
     this.#marker.setTheme(theme);
     if (!this.#shown) return;
-    for (const part of [this.#shown.attributes, this.#shown.points]) part.setTheme(theme);
+    this.#shown.points.setTheme(theme);
     this.#paint(this.#store.current);
-  }
-
-  /** Makes the cloud again whose worker was lost, and asks again. */
-  restart(): void {
-    this.#shown?.inquiry.restart();
-    this.#inquire();
   }
 
   /** Goes back to the first view. */
@@ -296,48 +281,51 @@ export class Viewer {
   #inquire(): void {
     if (!this.#shown) return;
     const settings = this.#store.current;
-    const viewpoint = settings.freeze ?? this.viewpoint;
-    // A new cloud is drawn before anything more is asked: the worker would take the drawing's time.
-    if (!this.#isNew) this.#shown.inquiry.follow(viewpoint, settings);
+    const viewpoint = this.#viewpoint;
+    this.#shown.inquiry.follow(viewpoint, settings);
     const { inquiry, cloud, from, before } = this.#shown;
     this.#shown.before = viewpoint;
     // From another place, the visible points leave a gap like a shadow.
     const isHere = isSamePlace(from, viewpoint, cloud.radius) || isStandIn(cloud, from, before);
     this.stage.setAll({ opacity: isHere ? 0 : 1 });
-    this.#isFinal = !inquiry.busy;
-    this.onBusy(!this.#isFinal, this.#shown.byMap);
+    this.onBusy(inquiry.busy, this.#shown.byMap);
   }
 
   /** Whether the picture is the final answer for the present camera and settings. */
   get isFinal(): boolean {
-    return this.#isFinal;
+    if (!this.#shown) return false;
+    const { inquiry, cloud, before } = this.#shown;
+    // The camera may have moved since the last frame.
+    return !inquiry.busy && isSamePlace(before, this.#viewpoint, cloud.radius);
+  }
+
+  /** The viewpoint whose visible points are shown: the camera's, or the frozen one. */
+  get #viewpoint(): Viewpoint {
+    return this.#store.current.freeze ?? this.viewpoint;
   }
 
   #showAnswer(answer: TimedView): void {
-    const { visibility, question } = answer;
-    this.#shown!.answer = answer;
-    this.#shown!.from = question.viewpoint;
-    this.#shown!.byMap = false;
-    this.#shown!.points.setVisible(visibility.indices);
+    Object.assign(this.#shown!, { answer, from: answer.question.viewpoint, byMap: false });
     this.stage.invalidate();
   }
 
   #paint({ color, up }: Settings): void {
-    const { cloud, attributes } = this.#shown!;
+    const { cloud, points } = this.#shown!;
     const { tints, legend } = colorBy(color, cloud, up, this.#theme);
-    attributes.setTints(tints);
+    points.setTints(tints);
     this.stage.invalidate();
     this.onLegend(legend);
   }
 
   #setUp(up: Up): void {
-    this.#shown!.attributes.setUp(up);
+    this.#shown!.points.setUp(up);
     this.stage.invalidate();
   }
 
   #applyLook({ hidden: chosen, freeze, compare, size, fieldOfView }: Settings): void {
-    const { points } = this.#shown!;
-    points.show(compare === null ? chosen : "off");
+    const { points, inquiry } = this.#shown!;
+    inquiry.filter.mode = chosen === "off" || compare !== null ? "hide" : "dim";
+    points.setGhostly(chosen === "dimmed");
     this.stage.setAll({ alone: compare ?? 0 });
     this.stage.setPointWidth(points.setPointSize(size, chosen !== "off" && freeze === null));
     this.stage.setFieldOfView(fieldOfView);
@@ -368,7 +356,7 @@ export class Viewer {
 
 /** Takes a cloud out of the picture. */
 function remove({ points }: Shown): void {
-  for (const drawn of [points.solid, points.ghost, points.all]) drawn.removeFromParent();
+  for (const drawn of [points.solid, points.all]) drawn.removeFromParent();
 }
 
 /** The cosine of the angle, seen from the middle of the cloud, up to which one place may stand in for another. */

@@ -32,6 +32,9 @@ export class Refinement<Options = unknown> {
   #isSettled = true;
   #begins = 0;
   #movedAt = -Infinity;
+  /** When the last frame was, and the milliseconds between the last two of them. */
+  #framedAt = -Infinity;
+  #frame = 0;
   #overtaking: AbortController | undefined;
   #timer: ReturnType<typeof setTimeout> | undefined;
 
@@ -43,8 +46,12 @@ export class Refinement<Options = unknown> {
   /** The question that is due now. */
   get due(): Stage<Options> | undefined {
     const stage = this.#stages[this.#next];
-    const remaining = (stage?.rest ?? 0) - this.stillFor;
-    if (stage === undefined || stage.rest === 0 || remaining <= 0) {
+    if (stage === undefined || stage.rest === 0) {
+      return stage;
+    }
+    // A frame of a large cloud may take longer than a rest.
+    const remaining = Math.max(stage.rest, STILL * this.#frame) - this.stillFor;
+    if (remaining <= 0) {
       return stage;
     }
     this.#timer ??= setTimeout(() => {
@@ -67,6 +74,15 @@ export class Refinement<Options = unknown> {
   /** Whether the last question was answered, or refused. */
   get isSettled(): boolean {
     return this.#isSettled;
+  }
+
+  /** To be called in each frame. Where nothing is drawn at rest, the time between frames is no frame's. */
+  protected framed(): void {
+    const now = performance.now();
+    const passed = now - this.#framedAt;
+    if (passed < 1) return;
+    this.#frame = passed < LONGEST_FRAME ? passed : 0;
+    this.#framedAt = now;
   }
 
   /** To be called with the first view and with each move. */
@@ -144,6 +160,10 @@ export class Refinement<Options = unknown> {
   }
 }
 
+/** For how many frames nothing moves at rest, and the milliseconds of the longest frame. */
+const STILL = 2;
+const LONGEST_FRAME = 500;
+
 /** What a view shows. */
 export type Seen = Visibility | VisibilityMap;
 
@@ -164,6 +184,7 @@ export class FollowedView extends Refinement<VisibilityOptions> {
 
   /** Takes up the place of a frame. Returns whether it is new. `rounding`: how far rounding alone may move it. */
   move(place: Place, spacing: number, rounding = 0): boolean {
+    this.framed();
     this.#before = this.place;
     const isNew = this.place === undefined || !isNear(this.place, place, spacing, rounding);
     if (isNew) this.place = place;

@@ -41,7 +41,7 @@ export interface UseHiddenPointFilterOptions extends HiddenPointFilterOptions {
  * }
  * ```
  *
- * `frozen`, `enabled`, `mode`, `looks`, `exponent`, `thickness` and the callbacks may change at any time. When another
+ * `frozen`, `enabled`, `mode`, the options of a view, `settle` and the callbacks may change at any time. When another
  * option changes, or when `ref` holds another object after a render, the filter is made again.
  *
  * @returns the filter, or null while there are no points.
@@ -52,7 +52,8 @@ export function useHiddenPointFilter(
   options: UseHiddenPointFilterOptions = {},
 ): HiddenPointFilter | null {
   const { frozen = false, enabled = true, onChange, onError, ...settings } = options;
-  const { mode, looks, exponent, thickness, dimMaterial, cloud, inversion, ...plain } = settings;
+  const { mode, dimMaterial, cloud, worker, nonFinite, stale, origin, ...asked } = settings;
+  const [place, view] = [origin && Array.from(origin).join(), JSON.stringify(asked)];
   const invalidate = useThree((state) => state.invalidate);
   const [points, setPoints] = useState<Points | null>(null);
   const [filter, setFilter] = useState<HiddenPointFilter | null>(null);
@@ -83,21 +84,22 @@ export function useHiddenPointFilter(
       setFilter(null);
       invalidate();
     };
-    // Each render may write the options as new objects. Only a change of their content counts.
-  }, [points, dimMaterial, cloud, JSON.stringify(inversion), JSON.stringify(plain), isHeard, invalidate]);
+  }, [points, dimMaterial, cloud, worker, nonFinite, stale, place, isHeard, invalidate]);
+
+  // Each render may write the options as new objects. Only a change of their content counts.
+  useEffect(() => {
+    filter?.setOptions(asked);
+    invalidate();
+  }, [filter, view, invalidate]);
 
   useEffect(() => {
     if (filter !== null) {
-      if (filter.looks !== looks) filter.looks = looks;
-      if (filter.exponent !== exponent) filter.exponent = exponent;
-      if (filter.thickness !== thickness) filter.thickness = thickness;
       filter.mode = mode ?? "hide";
       filter.frozen = frozen;
       filter.enabled = enabled;
-      // The next frame asks with the new options.
       invalidate();
     }
-  }, [filter, frozen, enabled, mode, looks, exponent, thickness, invalidate]);
+  }, [filter, frozen, enabled, mode, invalidate]);
 
   useFrame(({ camera }) => {
     filter?.update(camera);

@@ -6,25 +6,27 @@ import type { Visibility } from "../cloud/visibility.js";
 import { VisibilityMap } from "../cloud/visibility-map.js";
 import { Events as Sender, Readiness } from "../follow/events.js";
 import { Follower, type Round } from "../follow/follower.js";
-import type { AnswerKind } from "../follow/options.js";
+import { type AnswerKind, stagesFor } from "../follow/options.js";
 import type { Seen } from "../follow/view.js";
 import { type Cloud, see } from "../worker/followed-cloud.js";
 import { type FollowedCamera, FollowedCameras, inSpace, type Space } from "./cameras.js";
-import { changedSettings, type FilterSettings, readFilterOptions } from "./options.js";
+import { type AskedOptions, changedSettings, type FilterSettings, readFilterOptions } from "./options.js";
 
 /** An answer that is drawn. */
 export interface FilterChange {
   /** How many points are drawn. For a map, which the graphics card tests the points against, that of the last answer. */
   count: number;
+  /** The whole answer about the points of the cloud. Null for a map. */
+  visibility: Visibility | null;
   /** The time that the answer took. */
   milliseconds: number;
   /** What the answer is: a map comes before the exact answer. */
   answer: AnswerKind;
   /** The camera that it is for. */
   camera: Camera;
-  /** x, y, z in the points' space. Null for an orthographic camera. */
+  /** x, y, z in the cloud. Null for an orthographic camera. */
   viewpoint: number[] | null;
-  /** x, y, z in the points' space. Null for a perspective camera. */
+  /** x, y, z in the cloud. Null for a perspective camera. */
   direction: number[] | null;
   /** The radius of the answer, and its exponent; for a map, those of the last answer. 0 if it has none, as with looks. */
   radius: number;
@@ -105,6 +107,8 @@ export abstract class CameraFilter<Events extends FilterEvents> extends Sender<E
   #isDisposed = false;
   #hasSaid = false;
   #answered = { radius: 0, exponent: 0 };
+  /** The cloud whose first map was asked for. */
+  #prepared: Cloud | undefined;
   /** The last refusal, if nothing was answered since. */
   #refusal: Error | undefined;
   /** Called when a cloud may have come. */
@@ -159,44 +163,19 @@ export abstract class CameraFilter<Events extends FilterEvents> extends Sender<E
     this.settings.given = settings.given;
   }
 
-  /** The option `looks`. If it is set, `exponent`, `radius` and `inversion` are automatic. */
-  get looks(): 2 | 3 | undefined {
-    return this.settings.given.looks;
-  }
-
-  /** @throws HprError `option`. */
-  set looks(looks: 2 | 3 | undefined) {
-    this.#change("looks", looks);
-  }
-
-  /** The option `exponent`. If it is set, `looks`, `thickness`, `radius` and `inversion` are no longer. */
-  get exponent(): number | undefined {
-    return this.settings.given.exponent;
-  }
-
-  /** @throws HprError `option`. */
-  set exponent(exponent: number | undefined) {
-    this.#change("exponent", exponent);
-  }
-
-  /** The option `thickness` of the looks. */
-  get thickness(): number | "auto" | undefined {
-    return this.settings.given.thickness;
-  }
-
-  /** @throws HprError `option`. */
-  set thickness(thickness: number | "auto" | undefined) {
-    this.#change("thickness", thickness);
-  }
-
-  /** The option `surface` of the looks. */
-  get surface(): "auto" | "clean" | "noisy" | "layered" | undefined {
-    return (this.settings.given as { surface?: "auto" | "clean" | "noisy" | "layered" }).surface;
-  }
-
-  /** @throws HprError `option`. */
-  set surface(surface: "auto" | "clean" | "noisy" | "layered" | undefined) {
-    this.#change("surface", surface);
+  /**
+   * Asks with these options of a view and `settle` from now on, in place of those before. At rest, the final answer
+   * comes at once.
+   *
+   * @throws HprError `option`. Then nothing has changed.
+   */
+  setOptions(options: AskedOptions): void {
+    const settings = changedSettings(this.settings, options, this.#names);
+    if (JSON.stringify(settings.stages) === JSON.stringify(this.settings.stages)) return;
+    Object.assign(this.settings, settings);
+    this.cameras.reconsider();
+    // The next frame may take up more.
+    queueMicrotask(() => this.follower.follow());
   }
 
   /** The radius of the last answer, in the points' units. 0 before it, and if it has none, as with looks. */
@@ -223,8 +202,10 @@ export abstract class CameraFilter<Events extends FilterEvents> extends Sender<E
    * Call this in each frame, before rendering (and after a viewer has chosen its nodes). It asks for an answer
    * if the view or the points are new, and draws the answer when it arrives (with `worker: false`, at once).
    * While one view is being answered, only the newest of the later views is kept.
+   *
+   * @param viewpoint x, y, z in the cloud, if the visible points are those of another place than the camera's.
    */
-  update(camera: Camera): void {
+  update(camera: Camera, viewpoint?: ArrayLike<number>): void {
     if (this.#isDisposed) return;
     let isChanged;
     try {
@@ -232,7 +213,7 @@ export abstract class CameraFilter<Events extends FilterEvents> extends Sender<E
       if (!this.enabled || this.frozen) return;
       const followed = this.cameras.of(camera);
       this.drawing.select(followed);
-      if (this.cameras.look(followed, this.#object)) {
+      if (this.cameras.look(followed, this.#object, viewpoint)) {
         this.#isMoved = true;
         this.leave(followed);
       }
@@ -271,7 +252,9 @@ export abstract class CameraFilter<Events extends FilterEvents> extends Sender<E
       throw new HprError("option", "sees() needs an update with a perspective camera before");
     }
     const { scores: _, ...options } = this.settings.stages.at(-1)!.options;
-    return (await this.cloud.sees(place.from, inSpace(this.#object, [x, y, z]), options))[0] === 1;
+    const { origin = [0, 0, 0] } = this.settings;
+    const target = inSpace(this.#object, [x, y, z]).map((value, axis) => value + origin[axis]!);
+    return (await this.cloud.sees(place.from, target, options))[0] === 1;
   }
 
   /** Draws everything as it was before, and frees the memory of the cloud. May be called twice. */
@@ -329,7 +312,7 @@ export abstract class CameraFilter<Events extends FilterEvents> extends Sender<E
     camera.askedAt = performance.now();
     return camera.see(
       this.settings.stale,
-      (place, stage) => see(cloud, place, stage),
+      (place, stage) => see(cloud, place, stage, this.settings.origin),
       (answer, kind, milliseconds, { from, isDirection }) => {
         const isMap = answer instanceof VisibilityMap;
         const drawn = isMap ? drawMap(answer) : draw(answer);
@@ -342,7 +325,9 @@ export abstract class CameraFilter<Events extends FilterEvents> extends Sender<E
         }
         const [viewpoint, direction] = isDirection ? [null, [...from]] : [[...from], null];
         const place = { camera: camera.camera, viewpoint, direction };
-        const change = { ...drawn, ...this.#answered, ...place, milliseconds, answer: kind };
+        const visibility = isMap ? null : answer;
+        const change = { ...drawn, ...this.#answered, ...place, visibility, milliseconds, answer: kind };
+        if (!isMap && camera.isSettled) this.#prepareMaps(cloud, place);
         return () => {
           this.tell();
           this.send("change" as never, change as never);
@@ -351,12 +336,13 @@ export abstract class CameraFilter<Events extends FilterEvents> extends Sender<E
     );
   }
 
-  /** Asks with another option. */
-  #change(name: Parameters<typeof changedSettings>[1], value: unknown): void {
-    Object.assign(this.settings, changedSettings(this.settings, name, value, this.#names));
-    this.cameras.again();
-    // Several options may change one after another.
-    queueMicrotask(() => this.follower.follow());
+  /** The first map of a cloud takes longer, so it is made before a camera moves. */
+  #prepareMaps(cloud: Cloud, { viewpoint }: Pick<FilterChange, "viewpoint">): void {
+    const [map] = stagesFor(this.settings, cloud.length, this.drawing.isAble);
+    if (this.#prepared === cloud || viewpoint === null || map?.kind !== "map") return;
+    this.#prepared = cloud;
+    // If it is refused, the first move says why.
+    void cloud.visibilityMap(viewpoint, map.options);
   }
 
   /** Says once that no map can be drawn. */

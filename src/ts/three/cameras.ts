@@ -4,6 +4,7 @@ import { describe, HprError } from "../base/errors.js";
 import { type FollowSettings, REST, type Stage, stagesFor } from "../follow/options.js";
 import { FollowedView } from "../follow/view.js";
 import type { Place } from "../query/place.js";
+import { readViewpoint } from "../query/positions.js";
 import type { VisibilityOptions } from "../query/view-options.js";
 
 /** One camera's view of a cloud, and how far its answers have come. */
@@ -28,7 +29,7 @@ const MOST = 8;
 
 /** The cameras that look at one cloud, each with its own view and answers. */
 export class FollowedCameras {
-  readonly #settings: FollowSettings;
+  readonly #settings: FollowSettings & { origin?: readonly number[] | undefined };
   readonly #wake: () => void;
   readonly #dropped: (camera: FollowedCamera) => void;
   readonly #drawsMaps: () => boolean;
@@ -42,7 +43,7 @@ export class FollowedCameras {
    * tells whether maps can be drawn.
    */
   constructor(
-    settings: FollowSettings,
+    settings: FollowSettings & { origin?: readonly number[] | undefined },
     wake: () => void,
     dropped: (camera: FollowedCamera) => void,
     drawsMaps: () => boolean,
@@ -69,15 +70,17 @@ export class FollowedCameras {
     return followed;
   }
 
-  /** Reads the camera's place in the object's space. Returns whether it has moved. */
-  look(followed: FollowedCamera, object: Space): boolean {
-    const { place, rounding } = placeOf(followed.camera, object);
+  /** Reads the camera's place in the cloud, or takes the given one. Returns whether it has moved. */
+  look(followed: FollowedCamera, object: Space, viewpoint?: ArrayLike<number>): boolean {
+    const { place, rounding } = viewpoint
+      ? { place: { from: readViewpoint(viewpoint, 3), isDirection: false }, rounding: 0 }
+      : placeOf(followed.camera, object, this.#settings.origin);
     if (!followed.move(place, this.#spacing, rounding)) return false;
     followed.moved(this.#stagesFor(followed));
     return true;
   }
 
-  /** All cameras ask again, because the cloud or the settings have changed. */
+  /** All cameras ask again, because the cloud has changed. */
   again(points = this.#points, spacing = this.#spacing): void {
     this.#points = points;
     this.#spacing = spacing;
@@ -85,6 +88,18 @@ export class FollowedCameras {
       const stages = this.#stagesFor(followed);
       // At rest, the exact answer comes at once: a map would only delay it.
       followed.begin(stages, stages[0]?.kind === "map" && !followed.isMoving ? 1 : 0);
+    }
+  }
+
+  /**
+   * All cameras ask again, because the options have changed. At rest, the final answer comes at once: an earlier one
+   * would show points that the picture has no longer.
+   */
+  reconsider(): void {
+    for (const followed of this.#cameras.values()) {
+      const stages = this.#stagesFor(followed);
+      const isShown = followed.drawn !== undefined && !followed.isMoving;
+      followed.begin(stages, isShown ? stages.length - 1 : 0);
     }
   }
 
@@ -137,12 +152,16 @@ const ROUNDING = 1e-14;
 export type Space = Pick<Object3D, "updateWorldMatrix"> & { readonly matrixWorld: Pick<Matrix4, "elements"> };
 
 /**
- * The place that a camera looks from, or the direction that it looks along, in the space of the points, and how far
- * rounding may move this place.
+ * The place that a camera looks from, or the direction that it looks along, in the space of the cloud, and how far
+ * rounding may move this place. `origin`: the zero of the points' space in the cloud.
  *
  * @throws HprError `option` for a scale that is not uniform.
  */
-function placeOf(camera: Camera, points: Space): { place: Place; rounding: number } {
+function placeOf(
+  camera: Camera,
+  points: Space,
+  origin: readonly number[] = [0, 0, 0],
+): { place: Place; rounding: number } {
   camera.updateWorldMatrix(true, false);
   const c = camera.matrixWorld.elements;
   // The projection matrix shows this, also for cameras of other classes.
@@ -153,7 +172,7 @@ function placeOf(camera: Camera, points: Space): { place: Place; rounding: numbe
     const length = Math.hypot(...along);
     return { place: { from: along.map((part) => part / length), isDirection }, rounding: 0 };
   }
-  const from = inSpace(points, [c[12], c[13], c[14]]);
+  const from = inSpace(points, [c[12], c[13], c[14]]).map((x, axis) => x + origin[axis]!);
   const m = points.matrixWorld.elements;
   const reach = [12, 13, 14].reduce((sum, i) => sum + Math.abs(c[i]!) + Math.abs(m[i]!), 0);
   return { place: { from, isDirection }, rounding: (ROUNDING * reach) / uniformScale(m) };

@@ -19,7 +19,7 @@ export class Display {
   readonly #points: Points;
   readonly #settings: FilterSettings;
   #dimmed: DimmedPoints | undefined;
-  /** Undefined if no maps are asked. */
+  /** Undefined if no maps are ever asked. */
   readonly #mapped: MappedPoints | undefined;
   readonly #views = new Map<unknown, View>();
   readonly #textures: MapTextures;
@@ -35,11 +35,11 @@ export class Display {
    * @throws HprError `option` if the material cannot be dimmed.
    */
   constructor(points: Points, settings: FilterSettings, textures?: MapTextures) {
-    const { dim, mapped, patch } = settings;
+    const { dim, stale, inWorker, patch } = settings;
     this.#points = points;
     this.#settings = settings;
     this.#dimmed = dim ? new DimmedPoints(points, settings) : undefined;
-    this.#mapped = mapped && new MappedPoints(points, patch!);
+    this.#mapped = stale === "map" && inWorker ? new MappedPoints(points, patch!) : undefined;
     this.drawn = new DrawnPoints(points, dim);
     this.#ownTextures = textures === undefined ? new MapTextures() : undefined;
     this.#textures = textures ?? this.#ownTextures!;

@@ -65,7 +65,7 @@ export class HiddenPointFilter extends CameraFilter<HiddenPointFilterEvents> {
    */
   constructor(points: Points, options?: HiddenPointFilterOptions) {
     requirePoints(points);
-    super(points, options, ["cloud"]);
+    super(points, options, ["cloud", "origin"]);
     requireUnfiltered(points.geometry);
     requireUniformScale(points);
     this.settings.patch = this.patch;
@@ -132,7 +132,7 @@ export class HiddenPointFilter extends CameraFilter<HiddenPointFilterEvents> {
       },
       (map) => {
         if (!this.drawing.drawn.isSame) return undefined;
-        this.drawing.map(camera, map);
+        this.drawing.map(camera, map, translation(this.settings.origin));
         return { count: this.#count };
       },
     );
@@ -157,7 +157,7 @@ export class HiddenPointFilter extends CameraFilter<HiddenPointFilterEvents> {
 
   /** @internal */
   protected override dropCloud(): void {
-    if (this.#cloud !== this.settings.cloud) void this.#cloud?.dispose();
+    if (this.#isOwn) void this.#cloud?.dispose();
     this.#cloud = undefined;
     this.isStale = true;
   }
@@ -172,8 +172,9 @@ export class HiddenPointFilter extends CameraFilter<HiddenPointFilterEvents> {
         const { numbers, own } = this.drawing.drawn.take();
         const { cloud } = this.settings;
         if (cloud === undefined) return prepareCloud(numbers, own, this.settings);
-        requireLength(cloud, numbers.length / 3);
-        return cloud;
+        const points = numbers.length / 3;
+        if (typeof cloud === "object") return withLength(cloud, points);
+        return cloud().then((made) => withLength(made, points));
       },
       use: (cloud) => {
         this.#cloud = cloud;
@@ -186,14 +187,25 @@ export class HiddenPointFilter extends CameraFilter<HiddenPointFilterEvents> {
         return () => this.tell();
       },
       leave: (cloud) => {
-        if (cloud !== this.settings.cloud) void cloud.dispose();
+        if (this.#isOwn) void cloud.dispose();
       },
     };
   }
+
+  /** Whether the cloud ends with the filter. */
+  get #isOwn(): boolean {
+    return typeof this.settings.cloud !== "object";
+  }
 }
 
-function requireLength(cloud: Cloud, points: number): void {
+/** The matrix from the points' space to the cloud. */
+function translation(origin: readonly number[] | undefined): number[] | undefined {
+  return origin && [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, ...origin, 1];
+}
+
+function withLength(cloud: Cloud, points: number): Cloud {
   if (cloud.length !== points) {
     throw new HprError("option", `cloud must have the ${points} points that the geometry draws, got ${cloud.length}`);
   }
+  return cloud;
 }

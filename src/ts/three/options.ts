@@ -3,7 +3,8 @@ import type { Material, Points } from "three";
 import { describe, HprError } from "../base/errors.js";
 import { FOLLOW_OPTIONS, type FollowOptions, type FollowSettings, followSettings } from "../follow/options.js";
 import { PointCloud } from "../cloud/cloud.js";
-import { givenOptions } from "../query/options.js";
+import { givenOptions, pick } from "../query/options.js";
+import { readViewpoint } from "../query/positions.js";
 import { VIEW_OPTIONS, type VisibilityOptions } from "../query/view-options.js";
 import { WorkerPointCloud } from "../worker/client.js";
 import type { Cloud } from "../worker/followed-cloud.js";
@@ -33,10 +34,19 @@ export interface HiddenPointFilterOptions extends VisibilityOptions, FollowOptio
   nonFinite?: "error" | "skip" | undefined;
   /**
    * A cloud of the same points in the same order, which the filter asks instead of a cloud of its own. It is not
-   * disposed of with the filter. `worker` and `nonFinite` are then those of the cloud.
+   * disposed of with the filter. `worker` and `nonFinite` are then those of the cloud. A function makes such a cloud,
+   * and makes it again when its worker is lost. The filter disposes of it.
    */
-  cloud?: PointCloud | WorkerPointCloud | undefined;
+  cloud?: PointCloud | WorkerPointCloud | (() => Promise<WorkerPointCloud>) | undefined;
+  /**
+   * Where the zero of the points' space is in `cloud`: x, y, z in double precision. So a cloud keeps the coordinates of
+   * a map, and the points are drawn in single precision around their own zero. Default 0, 0, 0.
+   */
+  origin?: ArrayLike<number> | undefined;
 }
+
+/** What a filter asks: options of a view, and what is asked at rest. */
+export type AskedOptions = VisibilityOptions & Pick<FollowOptions, "settle">;
 
 /** {@link HiddenPointFilterOptions} with all defaults. The core checks the ranges in `view`. */
 export interface FilterSettings extends FollowSettings {
@@ -47,8 +57,9 @@ export interface FilterSettings extends FollowSettings {
   dim: boolean;
   dimMaterial: Material | undefined;
   nonFinite: "error" | "skip";
-  /** A cloud of the same points. Undefined: the filter makes one. */
-  cloud: Cloud | undefined;
+  /** A cloud of the same points, or what makes it. Undefined: the filter makes one. */
+  cloud: Cloud | (() => Promise<WorkerPointCloud>) | undefined;
+  origin: readonly number[] | undefined;
   /** How materials are made to leave out hidden points. Undefined where points are drawn without them. */
   patch?: PatchMaterial;
 }
@@ -62,6 +73,10 @@ const OWN_OPTIONS = ["worker", "mode", "dimMaterial", "nonFinite"] as const;
 export function readFilterOptions(options: unknown, others: readonly string[] = []): FilterSettings {
   const given = givenOptions(options, VIEW_OPTIONS, FOLLOW_OPTIONS, OWN_OPTIONS, others);
   const cloud = readCloud(given["cloud"]);
+  const { origin } = given;
+  if (origin !== undefined && cloud === undefined) {
+    throw new HprError("option", "origin needs the option cloud: it is a place in that cloud");
+  }
   const inWorker = oneOf(given, "worker", [true, false]) && !(cloud instanceof PointCloud);
   const follow = followSettings(given, { isLater: inWorker, hasShaders: true });
   if (follow.stages.some((stage) => stage.options.scores === true)) {
@@ -75,31 +90,23 @@ export function readFilterOptions(options: unknown, others: readonly string[] = 
     dimMaterial: readMaterial(given["dimMaterial"]),
     nonFinite: oneOf(given, "nonFinite", ["error", "skip"]),
     cloud,
+    origin: origin === undefined ? undefined : readViewpoint(origin, 3, "origin"),
   };
 }
 
-/** The options that may be changed later, and those that each of them excludes. */
-const EXCLUDED = {
-  looks: ["radius", "exponent", "inversion"],
-  exponent: ["radius", "inversion", "looks", "thickness", "surface"],
-  thickness: [],
-  surface: [],
-} as const satisfies Record<string, readonly string[]>;
-
 /**
- * The settings after an option was changed. Another one that it excludes is dropped.
+ * The settings with these options of a view and `settle` in place of those before.
  *
  * @throws HprError `option`.
  */
 export function changedSettings(
   { given }: FilterSettings,
-  name: keyof typeof EXCLUDED,
-  value: unknown,
+  options: AskedOptions,
   others: readonly string[],
 ): FilterSettings {
-  const dropped: readonly string[] = value === undefined ? [] : EXCLUDED[name];
-  const kept = Object.entries(given).filter(([other]) => !dropped.includes(other));
-  return readFilterOptions({ ...Object.fromEntries(kept), [name]: value }, others);
+  const asked = givenOptions(options, VIEW_OPTIONS, ["settle"]);
+  const own = pick({ ...given }, ["stale", ...OWN_OPTIONS, ...others]);
+  return readFilterOptions({ ...own, ...asked }, others);
 }
 
 const WAY_OUT =
@@ -142,7 +149,13 @@ function readMaterial(material: unknown): Material | undefined {
   return material as Material;
 }
 
-function readCloud(cloud: unknown): Cloud | undefined {
-  if (cloud === undefined || cloud instanceof PointCloud || cloud instanceof WorkerPointCloud) return cloud;
-  throw new HprError("option", `cloud must be a PointCloud or a WorkerPointCloud, got ${describe(cloud)}`);
+function readCloud(cloud: unknown): FilterSettings["cloud"] {
+  const isMaker = typeof cloud === "function";
+  if (cloud === undefined || cloud instanceof PointCloud || cloud instanceof WorkerPointCloud || isMaker) {
+    return cloud as FilterSettings["cloud"];
+  }
+  throw new HprError(
+    "option",
+    `cloud must be a PointCloud, a WorkerPointCloud or a function that makes one, got ${describe(cloud)}`,
+  );
 }

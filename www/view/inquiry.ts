@@ -1,0 +1,241 @@
+import {
+  HprError,
+  type Inversion as LibraryInversion,
+  type Visibility,
+  type VisibilityOptions,
+} from "hidden-point-removal";
+import { type FilterChange, HiddenPointFilter } from "hidden-point-removal/three";
+import type { WorkerPointCloud } from "hidden-point-removal/worker";
+import { PerspectiveCamera } from "three";
+import {
+  canLook,
+  type Inversion,
+  type Looks,
+  type Radius,
+  type Settings,
+  type Viewpoint,
+} from "../settings/settings.ts";
+import type { CloudPoints } from "./points.ts";
+
+/** How the library decides which points a viewpoint sees. */
+export interface Method {
+  /** Only for the spherical flip; `null` for the others, and with looks. */
+  radius: Radius | null;
+  inversion: Inversion;
+  /** 0: the operator of the paper. */
+  looks: Looks;
+  /** Only with looks. Undefined: it follows from the noise of the cloud. */
+  thickness?: number | undefined;
+}
+
+/** The question of what can be seen. */
+export interface ViewQuestion {
+  viewpoint: Viewpoint;
+  method: Method;
+}
+
+/** An answer for the picture, with its question. */
+export interface TimedView {
+  question: ViewQuestion;
+  visibility: Visibility;
+  /** Why the library refused the settings, if its defaults were used instead. */
+  note: string | null;
+  /** `part`: an answer about those points alone that were read of a streamed octree. */
+  kind: "operator" | "looks" | "part";
+  /** The time of the question (performance.now), and how long the answer took. */
+  asked: number;
+  milliseconds: number;
+  /** The number of points of a cloud of which only a part is in memory, and the answer in words. */
+  whole?: { total: number; sentence: string };
+}
+
+/** A map that is drawn, of this viewpoint. */
+export type Mapped = Pick<ViewQuestion, "viewpoint"> & Pick<TimedView, "milliseconds">;
+
+/** Points that were read for one viewpoint, with the answer about them. */
+export interface Detail {
+  points: CloudPoints;
+  positions: Float32Array | Float64Array;
+  inquiry: Inquiry;
+  answer: TimedView;
+}
+
+/** The operator of the paper with these settings. */
+export function operatorOf({ radius, inversion }: Settings): Method {
+  return { radius: inversion === "spherical" ? radius : null, inversion, looks: 0 };
+}
+
+/** How the final answer is found with these settings. */
+export function methodOf(settings: Settings): Method {
+  const { looks, thickness } = settings;
+  const method = operatorOf(settings);
+  return looks > 0 && canLook(settings)
+    ? { ...method, radius: null, looks, ...(thickness !== "auto" && { thickness }) }
+    : method;
+}
+
+/**
+ * Orbit controls change the viewpoint by a few bits even if nothing has moved. So a move by less than this share of the
+ * cloud's size does not count.
+ */
+const SAME = 1e-9;
+
+export function isSamePlace(a: Viewpoint, b: Viewpoint, size: number): boolean {
+  return a.every((value, axis) => Math.abs(value - b[axis]!) <= SAME * size);
+}
+
+/** A cloud with the filter that draws what a viewpoint sees of it. */
+export class Inquiry {
+  onView: (answer: TimedView) => void = () => undefined;
+  /** A map stands in for the answer, until the viewpoint rests. */
+  onMap: (mapped: Mapped) => void = () => undefined;
+  onError: (error: unknown) => void = () => undefined;
+  /** Points to be shown instead of the cloud; `null`: the cloud again. Returns whether they are shown. */
+  onDetail: (detail: Detail | null) => boolean = () => false;
+
+  /** The cloud in its worker, also for questions that are not for the picture. */
+  cloud: WorkerPointCloud;
+  /** The last answer. */
+  answer: TimedView | null = null;
+  readonly filter: HiddenPointFilter;
+  /** The filter gets the viewpoint itself: it may be frozen, and is exactly the place that was asked for. */
+  readonly #camera = new PerspectiveCamera();
+  readonly #size: number;
+  /** That of the filter's own options. */
+  #method: Method = { radius: null, inversion: "spherical", looks: 3 };
+  #viewpoint: Viewpoint = [0, 0, 0];
+  /** Why the library's defaults are asked instead of the settings, and where these were refused. */
+  #refused: { note: string; at: Viewpoint } | null = null;
+
+  /** `another` makes a lost cloud again. */
+  constructor(cloud: WorkerPointCloud, another: () => Promise<WorkerPointCloud>, points: CloudPoints) {
+    this.cloud = cloud;
+    this.#size = points.cloud.radius;
+    let isFirst = true;
+    this.filter = new HiddenPointFilter(points.solid, {
+      cloud: async () => {
+        if (!isFirst) this.cloud = await another().catch(lost);
+        isFirst = false;
+        return this.cloud;
+      },
+      origin: points.cloud.center,
+      dimMaterial: points.ghost,
+    });
+    this.filter.addEventListener("change", (change) => this.#take(change));
+    this.filter.addEventListener("error", ({ error }) => this.#refuse(error));
+  }
+
+  /** Whether an answer for the last viewpoint and settings is still to come. */
+  get busy(): boolean {
+    return !this.filter.settled;
+  }
+
+  /** Returns the first answer. Nothing is shown before it. */
+  first(viewpoint: Viewpoint, settings: Settings): Promise<TimedView> {
+    return new Promise((resolve, reject) => {
+      this.onView = resolve;
+      this.onError = reject;
+      this.follow(viewpoint, settings);
+    });
+  }
+
+  /** Called every frame and after every change. Asks if the viewpoint or the settings are new. */
+  follow(viewpoint: Viewpoint, settings: Settings): void {
+    const method = methodOf(settings);
+    this.#viewpoint = viewpoint;
+    const isOther = JSON.stringify(method) !== JSON.stringify(this.#method);
+    // Settings that do not suit one place may suit another one.
+    const isElsewhere = this.#refused !== null && !this.busy && !isSamePlace(viewpoint, this.#refused.at, this.#size);
+    if (isOther || isElsewhere) this.#set(method);
+    this.look(viewpoint);
+  }
+
+  /** A frame of the filter. */
+  protected look(viewpoint: Viewpoint): void {
+    this.filter.update(this.#camera, viewpoint);
+  }
+
+  /** Asks a question that is not for the picture. */
+  aside({ viewpoint, method }: ViewQuestion): Promise<Visibility> {
+    return this.cloud.visibleFrom(viewpoint, this.options(method));
+  }
+
+  /** What the library is asked for. */
+  options({ radius, inversion, looks, thickness }: Method): VisibilityOptions {
+    return {
+      ...(radius === null
+        ? {}
+        : "rule" in radius
+          ? { radius: radius.rule }
+          : "length" in radius
+            ? { radius: radius.length }
+            : radius),
+      ...(inversion === "spherical" ? {} : { inversion: this.#inversion(inversion) }),
+      ...(looks === 0 ? {} : { looks, thickness }),
+    };
+  }
+
+  dispose(): void {
+    this.onMap = this.onView = this.onError = () => undefined;
+    this.filter.dispose();
+    void this.cloud.dispose();
+  }
+
+  /** The answer as others are told it. */
+  protected told(view: TimedView): TimedView {
+    return view;
+  }
+
+  #inversion({ exponential }: Exclude<Method["inversion"], "spherical">): LibraryInversion {
+    return { exponential: exponential === "auto" ? "auto" : exponential * this.cloud.spacing };
+  }
+
+  #set(method: Method): void {
+    this.#method = method;
+    this.#refused = null;
+    const options = this.options(method);
+    try {
+      this.filter.setOptions(method.looks > 0 ? { settle: options } : { ...options, settle: false });
+    } catch (error) {
+      this.#refuse(error);
+    }
+  }
+
+  #take({ visibility, viewpoint, milliseconds, answer: kind }: FilterChange): void {
+    const at = viewpoint as Viewpoint;
+    if (visibility === null) {
+      this.onMap({ viewpoint: at, milliseconds });
+      return;
+    }
+    const method = this.#method;
+    const hull: Method = { ...method, radius: { rule: "auto" }, looks: 0, thickness: undefined };
+    const question = { viewpoint: at, method: method.looks > 0 && kind === "operator" ? hull : method };
+    const [asked, note] = [performance.now() - milliseconds, this.#refused?.note ?? null];
+    this.answer = this.told({ question, visibility, note, kind: kind as TimedView["kind"], asked, milliseconds });
+    this.onView(this.answer);
+  }
+
+  /** If the settings do not suit the cloud or the place, the library's defaults are used. */
+  #refuse(error: unknown): void {
+    const isUnsuited = error instanceof HprError && (error.code === "radius" || error.code === "option");
+    if (!isUnsuited || this.#refused !== null) {
+      this.onError(error);
+      return;
+    }
+    const why = error.message.replace(/\.$/, "");
+    const note = `These settings do not suit this cloud or place, so the usual ones are used: ${why}.`;
+    this.#refused = { note, at: this.#viewpoint };
+    this.filter.setOptions({ settle: false });
+  }
+}
+
+/** For the filter, a cloud that cannot be made again is lost, too. */
+function lost(cause: unknown): never {
+  throw new HprError("internal", cause instanceof Error ? cause.message : String(cause), { cause });
+}
+
+/** Whether a worker has given no sign of life for too long. */
+export function isHang(error: unknown): boolean {
+  const cause = error instanceof HprError && error.cause;
+  return cause instanceof DOMException && cause.name === "TimeoutError";
+}
