@@ -352,7 +352,8 @@ describe("a filter of a cloud that the page has, in the coordinates of a map", (
     expect(await rest(placed(THERE))).toEqual([...cloud.visibleFrom(placed(THERE)).indices]);
     expect(changes.map(({ viewpoint }) => viewpoint)).toEqual([placed(HERE), placed(THERE)]);
     for (const { visibility, viewpoint } of changes) {
-      expect(visibility).toMatchObject(cloud.visibleFrom(viewpoint!) as object);
+      const { indices, radius } = cloud.visibleFrom(viewpoint!);
+      expect([visibility!.indices, visibility!.radius]).toEqual([indices, radius]);
     }
     filter.dispose();
     expect(cloud.visibleFrom(placed(HERE)).count).toBeGreaterThan(0);
