@@ -8,6 +8,7 @@ import { afterAll, beforeAll, expect, test } from "vitest";
 import type { HiddenPointCloudElement, PickedPoint } from "../../www/element/api.js";
 import { root } from "../root.js";
 import { asciiPly, ball } from "./clouds.js";
+import { pixelsOf } from "./pixels.js";
 import { servePage, type Site } from "./site.js";
 import { element, hears, heardBy, openStranger, settledState } from "./stranger.js";
 import { inNode, openPage, provoke, served } from "./support.js";
@@ -285,6 +286,39 @@ test("a missing file, a file that is no cloud, and a file that comes too late", 
   ]);
   await expect.poll(() => kept(page)).toEqual({ workers: 0, pictures: 1 });
 });
+
+test("of twenty elements on a page, those in sight are drawn, and the others give up their contexts", async () => {
+  const twenty = Array.from({ length: 20 }, (_, i) => {
+    const style = "display: block; height: 330px";
+    return `<hidden-point-cloud id="e${i}" src="clouds/a.ply" style="${style}"></hidden-point-cloud>`;
+  });
+  const page = await openStranger(elsewhere.address, twenty.join(""));
+  const inSight = async (...ids: string[]) => {
+    await expect.poll(async () => (await kept(page)).pictures, { timeout: 20_000 }).toBeLessThan(8);
+    for (const id of ids) await expect.poll(() => colorsOf(page, id), { timeout: 20_000 }).toBeGreaterThan(20);
+  };
+  for (let i = 0; i < 20; i++) expect(await settledState(page, `e${i}`)).toBe("ready");
+  await inSight("e0", "e1");
+  await page.evaluate(() => {
+    scrollTo(0, document.body.scrollHeight);
+  });
+  await inSight("e18", "e19");
+  // A picture out of sight can still be taken, and its element answers.
+  expect(await element(page, "e0", async (cloud) => (await cloud.toBlob()).size)).toBeGreaterThan(1000);
+  await element(page, "e0", (cloud) => void (cloud.viewpoint = [1, 2, 9]));
+  await expect.poll(async () => (await heardBy(page, "e0", "change")).at(-1)).toMatchObject({ viewpoint: [1, 2, 9] });
+  await page.evaluate(() => {
+    scrollTo(0, 0);
+  });
+  await inSight("e0", "e1");
+  for (let i = 0; i < 20; i++) expect(await heardBy(page, `e${i}`, "error")).toEqual([]);
+});
+
+/** How many colors are on the screen where the element is. */
+async function colorsOf(page: Page, id: string): Promise<number> {
+  const { data } = await pixelsOf(await page.locator(`#${id}`).screenshot());
+  return new Set(new Uint32Array(new Uint8Array(data).buffer)).size;
+}
 
 test("visible points are picked and hidden ones are not, and the page around scrolls until the picture has the focus", async () => {
   const page = await openStranger(elsewhere.address, TWO, "<p>".repeat(100));

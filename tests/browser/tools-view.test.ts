@@ -28,7 +28,12 @@ test("the divider shows all points to its left and visible ones to its right, by
   await tool(page, "Compare").click();
   expect(await dividerAt(page)).toBeLessThan(x);
   const note = page.locator("#compare-note span");
-  expect(await note.allTextContents()).toEqual(["All points", "Seen from here"]);
+  for (const where of ["from here", "from the eye", "from here"]) {
+    await expect.poll(() => note.allTextContents()).toEqual(["All points", `Seen ${where}`]);
+    expect(await divider.getAttribute("aria-valuetext")).toMatch(`seen ${where} on the right`);
+    await page.locator("#view").press("v");
+  }
+  await page.locator("#view").press("v");
 
   await divider.hover();
   await page.mouse.down();

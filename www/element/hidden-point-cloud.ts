@@ -27,6 +27,9 @@ type Reflected = Exclude<
 >;
 type Own = Omit<Api.HiddenPointCloudElement, keyof HTMLElement | Reflected>;
 
+/** A picture is nearly in sight at this distance from the window, in heights of it. */
+const NEAR = 0.5;
+
 /** A server has no elements. There, importing this module defines the class and does nothing else. */
 const Base = "HTMLElement" in globalThis ? HTMLElement : (Object as unknown as typeof HTMLElement);
 
@@ -42,11 +45,15 @@ class HiddenPointCloud extends Base implements Own {
   /** Whether an attribute of the view was set, maybe to the same value again. */
   #looks = false;
   #updating = false;
+  readonly #sight = new IntersectionObserver((entries) => this.#look(entries.at(-1)!.isIntersecting), {
+    rootMargin: `${100 * NEAR}%`,
+  });
   /** The messages that have been reported already, by attribute. */
   #told = new Map<string, string>();
 
   connectedCallback(): void {
     adoptEarly(this);
+    this.#sight.observe(this);
     this.#touch();
   }
 
@@ -176,10 +183,19 @@ class HiddenPointCloud extends Base implements Own {
     const pointing = new Pointing(showing.canvas, showing.viewer);
     pointing.onPick((point) => this.#emit("pick", point));
     this.#showing = { showing, pointing };
+    const { top, bottom } = this.getBoundingClientRect();
+    // The observer comes later, when many elements have made their contexts.
+    this.#look(bottom > -NEAR * innerHeight && top < (1 + NEAR) * innerHeight);
     return showing;
   }
 
+  /** Only a picture in sight, or nearly so, keeps its context: a browser takes those of pictures in sight otherwise. */
+  #look(isNear: boolean): void {
+    if (this.#showing) this.#showing.showing.viewer.stage.isWanted = isNear;
+  }
+
   #sleep(): void {
+    this.#sight.disconnect();
     this.#showing?.showing.dispose();
     this.#showing = null;
     this.#state = "empty";

@@ -16,6 +16,7 @@ export class Compare {
   readonly #store: Store;
   readonly #divider = byId("divider");
   readonly #note = byId("compare-note");
+  #where = "from here";
 
   constructor(viewer: Viewer, store: Store) {
     this.#viewer = viewer;
@@ -23,7 +24,8 @@ export class Compare {
     const button = byId("tool-compare");
     button.addEventListener("click", () => this.toggle());
     this.#bindDivider();
-    store.follow(({ compare }) => {
+    store.follow(({ compare, freeze }) => {
+      this.#where = freeze ? "from the eye" : "from here";
       button.setAttribute("aria-pressed", String(compare !== null));
       this.follow();
     });
@@ -42,9 +44,10 @@ export class Compare {
     if (idle) return;
     this.#note.style.setProperty("--at", `${100 * compare}%`);
     this.#divider.style.left = `${100 * compare}%`;
+    this.#note.lastElementChild!.textContent = `Seen ${this.#where}`;
     const percent = String(Math.round(100 * compare));
     this.#divider.ariaValueNow = percent;
-    this.#divider.ariaValueText = `All points on the left ${percent} %, seen from here on the right`;
+    this.#divider.ariaValueText = `All points on the left ${percent} %, seen ${this.#where} on the right`;
   }
 
   #bindDivider(): void {

@@ -33,6 +33,10 @@ export class Stage {
   #drawnFrom = "";
   /** Whether there has been something to draw. The first frame compiles the shaders, so it must not be an empty one. */
   #isBegun = false;
+  /** Whether the picture is wanted, or is taken for a file, and whether its context was given up because it was not. */
+  #isWanted = true;
+  #isTaken = false;
+  #isGivenUp = false;
   /** The ball in which everything is drawn. */
   #extent = { middle: new Vector3(), radius: 1 };
 
@@ -44,10 +48,16 @@ export class Stage {
     this.#eyeDome = new EyeDome();
     this.setTheme(THEMES.dark);
     this.#resizing.observe(canvas);
-    canvas.addEventListener("webglcontextlost", () => this.onLost());
+    canvas.addEventListener("webglcontextlost", () => {
+      if (!this.#isGivenUp) this.onLost();
+      // The event must end first.
+      else setTimeout(() => this.#hold());
+    });
     canvas.addEventListener("webglcontextrestored", () => {
+      if (!this.#isGivenUp) this.onRestored();
+      this.#isGivenUp = false;
       this.invalidate();
-      this.onRestored();
+      this.#hold();
     });
     this.#resize();
     this.#renderer.setAnimationLoop(() => this.#frame());
@@ -106,6 +116,23 @@ export class Stage {
     this.invalidate();
   }
 
+  /** While nobody sees the picture, its context is given up: a browser keeps only a few of them alive. */
+  set isWanted(isWanted: boolean) {
+    this.#isWanted = isWanted;
+    this.#hold();
+  }
+
+  #hold(): void {
+    const isLost = this.#renderer.getContext().isContextLost();
+    const isWanted = this.#isWanted || this.#isTaken;
+    if (isWanted && this.#isGivenUp && isLost) {
+      this.#renderer.forceContextRestore();
+    } else if (!isWanted && !isLost) {
+      this.#isGivenUp = true;
+      this.#renderer.forceContextLoss();
+    }
+  }
+
   /** Draws the next frame although the camera has not moved. */
   invalidate(): void {
     this.#changed = true;
@@ -123,8 +150,8 @@ export class Stage {
     this.#eyeDome.dispose();
     this.#renderer.dispose();
     this.onLost = () => undefined;
-    // Browsers keep only a few contexts alive, and would free this one late.
-    this.#renderer.forceContextLoss();
+    // Browsers would free this context late.
+    if (!this.#renderer.getContext().isContextLost()) this.#renderer.forceContextLoss();
   }
 
   #resize(): void {
@@ -164,7 +191,24 @@ export class Stage {
   }
 
   /** Returns the present picture as a PNG file. Rejects if there is no picture. */
-  snapshot(): Promise<Blob> {
+  async snapshot(): Promise<Blob> {
+    this.#isTaken = true;
+    try {
+      if (this.#isGivenUp) {
+        const restored = new Promise((resolve) =>
+          this.#canvas.addEventListener("webglcontextrestored", resolve, { once: true }),
+        );
+        this.#hold();
+        await restored;
+      }
+      return await this.#snapshot();
+    } finally {
+      this.#isTaken = false;
+      this.#hold();
+    }
+  }
+
+  #snapshot(): Promise<Blob> {
     if (this.#renderer.getContext().isContextLost()) {
       return Promise.reject(new Error("the browser has taken the picture away"));
     }
@@ -185,7 +229,7 @@ export class Stage {
     const from = this.camera.matrixWorld.elements.join();
     if (!this.#changed && from === this.#drawnFrom) return;
     this.#isBegun ||= [this.points, this.all, this.overlay].some(({ children }) => children.length > 0);
-    if (!this.#isBegun) return;
+    if (!this.#isBegun || this.#isGivenUp) return;
     if (from !== this.#drawnFrom) this.onCamera();
     this.#changed = false;
     this.#drawnFrom = from;
