@@ -2,17 +2,13 @@
 
 mod extreme;
 mod flat;
-mod frame;
-mod plane;
 mod residues;
 mod rows;
-mod subspace;
 
 use alloc::vec::Vec;
 
-use self::frame::Frame;
+use self::flat::{Frame, in_space};
 use self::rows::{Rows, squared};
-use self::subspace::in_space;
 use crate::answers::visibility::{Visibility, marked_indices};
 use crate::base::allocation::{filled, with_capacity};
 use crate::base::error::{Error, in_range};

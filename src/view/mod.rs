@@ -9,4 +9,3 @@ pub(crate) mod options;
 pub(crate) mod radius;
 pub(crate) mod refusals;
 pub(crate) mod resolved;
-pub(crate) mod search;
