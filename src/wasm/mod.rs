@@ -63,11 +63,8 @@ interface ViewOptions {
   /** 0 spherical, 1 `parameter` is the power, 2 exponential, 3 `parameter` is its scale, 4 `parameter` is the number of looks. */
   kernel: number;
   parameter: number;
-  scores: boolean;
-  /** Negative: automatic. */
-  thickness: number;
-  /** 0 automatic, 1 clean, 2 noisy, 3 layered. */
-  surface: number;
+  /** The names and values of all others. */
+  others: readonly (readonly [string, unknown])[];
   /** A distance, the lowest x, y, z and the highest ones; infinite where there is no limit. */
   within: ArrayLike<number>;
   mask?: Uint8Array | undefined;

@@ -2,11 +2,11 @@
 
 use alloc::vec::Vec;
 
-use js_sys::{Function, Uint8Array};
+use js_sys::{Array, Function, Uint8Array};
 use wasm_bindgen::prelude::*;
 
 use crate::base::FULL;
-use crate::{Exponential, Inversion, NonFinite, Options, Radius, Surface, Within};
+use crate::{Exponential, Given, Inversion, NonFinite, Options, Radius, Within};
 
 // Without serde: its messages about wrong types bring the formatting of floats, 30 kB.
 #[wasm_bindgen]
@@ -30,11 +30,7 @@ extern "C" {
     #[wasm_bindgen(method, getter)]
     fn parameter(this: &ViewOptions) -> f64;
     #[wasm_bindgen(method, getter)]
-    fn scores(this: &ViewOptions) -> bool;
-    #[wasm_bindgen(method, getter)]
-    fn thickness(this: &ViewOptions) -> f64;
-    #[wasm_bindgen(method, getter)]
-    fn surface(this: &ViewOptions) -> u32;
+    fn others(this: &ViewOptions) -> Array;
     #[wasm_bindgen(method, getter)]
     fn within(this: &ViewOptions) -> Vec<f64>;
     #[wasm_bindgen(method, getter)]
@@ -53,7 +49,7 @@ impl CloudOptions {
 
 impl ViewOptions {
     pub(super) fn read(&self) -> Options {
-        let operator = Options {
+        let mut options = Options {
             radius: match self.rule() {
                 1 => Radius::Opposite,
                 2 => Radius::Absolute(self.size()),
@@ -69,22 +65,22 @@ impl ViewOptions {
             },
             ..Options::default()
         };
-        if !FULL {
-            return operator;
+        if FULL {
+            options.within = self.read_within();
+            for other in self.others().iter() {
+                let other = Array::from(&other);
+                let (name, value) = (other.get(0).as_string(), other.get(1));
+                let word = value.as_string();
+                let value = match (value.as_f64(), value.as_bool(), &word) {
+                    (Some(number), ..) => Given::Number(number),
+                    (_, Some(truth), _) => Given::Truth(truth),
+                    _ => Given::Word(word.as_deref().unwrap_or_default()),
+                };
+                // JavaScript has checked it by its row.
+                let _ = options.set(&name.unwrap_or_default(), value);
+            }
         }
-        Options {
-            scores: self.scores(),
-            // A negative number stands for none.
-            thickness: Some(self.thickness()).filter(|thickness| *thickness >= 0.0),
-            surface: match self.surface() {
-                1 => Some(Surface::Clean),
-                2 => Some(Surface::Noisy),
-                3 => Some(Surface::Layered),
-                _ => None,
-            },
-            within: self.read_within(),
-            ..operator
-        }
+        options
     }
 
     fn read_within(&self) -> Option<Within> {

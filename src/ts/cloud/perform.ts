@@ -4,7 +4,7 @@ import type { Bindings, Instance } from "../instance/instance.js";
 import { allocating } from "../base/memory.js";
 import type { Query, QueryKind } from "../query/queries.js";
 import { newCounts, viewFrom } from "../query/surveys.js";
-import { resolvedInversion, type ViewSettings } from "../query/view-options.js";
+import { hasScores, resolvedInversion, type ViewSettings } from "../query/view-options.js";
 
 /** A cloud in the memory of an instance. */
 interface Target {
@@ -191,5 +191,5 @@ function found({ length }: Target, settings: ViewSettings, answer: CoreAnswer): 
     exact: answer.exact === 1,
     length,
   };
-  return settings.scores ? { ...found, scores: answer.scores } : found;
+  return hasScores(settings) ? { ...found, scores: answer.scores } : found;
 }

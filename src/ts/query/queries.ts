@@ -19,7 +19,7 @@ import { type PanoramaSize, panoramaSize } from "./panorama-options.js";
 import { packed, readPositions, readViewpoint, readViewpoints } from "./positions.js";
 import { isCameraSeat, readSeats, type Seat } from "./seats.js";
 import { plainView, typedArrayType } from "../base/typed-arrays.js";
-import { refuseScores, ruleSettings, type ViewSettings, viewSettings } from "./view-options.js";
+import { hasScores, refuseScores, ruleSettings, type ViewSettings, viewSettings } from "./view-options.js";
 
 export type { IlluminationOptions, ReconstructionOptions };
 
@@ -146,7 +146,7 @@ export function severalQuery(
   }
   const settings = viewSettings(given, dimension);
   if (seats.some(isCameraSeat)) {
-    refuseScores(settings, "several cameras");
+    refuseScores({ scores: hasScores(settings) }, "several cameras");
     return { kind: "visibleFromSeats", seats, k, settings };
   }
   const positions = allocating(`${seats.length} viewpoints`, () =>

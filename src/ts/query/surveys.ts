@@ -8,7 +8,7 @@ import { type Checked, requireSpace, type Rows } from "./options.js";
 import { GreedyChoice, type Placement, type PlacementSettings } from "./placement.js";
 import type { Query } from "./queries.js";
 import { isCameraSeat, readCameras, readSeats, type Seat } from "./seats.js";
-import { refuseScores, type ViewSettings, viewSettings } from "./view-options.js";
+import { hasScores, refuseScores, type ViewSettings, viewSettings } from "./view-options.js";
 
 export type { CoverageOptions, PlacementOptions };
 
@@ -38,7 +38,7 @@ export function readSurvey(
       ? readCameras(viewpoints)
       : readSeats(viewpoints, dimension, method === "coverage" ? "viewpoints" : "candidates");
   const settings = viewSettings(given, dimension);
-  refuseScores(settings, method);
+  refuseScores({ scores: hasScores(settings) }, method);
   return { seats, settings, towards: method === "seenBy" };
 }
 

@@ -16,20 +16,15 @@ export interface ViewSettings extends WithinSettings {
   kernel: number;
   /** γ or c, if one is given, or the number of looks. */
   parameter: number;
-  scores: boolean;
-  /** A negative number means that it is automatic. */
-  thickness: number;
-  /** The place of the word in the row of the option: 0 means that it is automatic. */
-  surface: number;
+  /** All others that were given. The core reads them by name. */
+  others: readonly (readonly [name: string, value: unknown])[];
 }
 
 export const Rule = { auto: 0, opposite: 1, radius: 2, exponent: 3 } as const;
 export const Kernel = { spherical: 0, power: 1, automaticExponential: 2, exponential: 3, looks: 4 } as const;
 
-/** The thickness that stands for `"auto"`. */
-const AUTOMATIC = -1;
-
 export const VIEW_OPTIONS = Object.keys(VIEW_ROWS);
+const OTHERS = VIEW_OPTIONS.filter((name) => !["radius", "exponent", "inversion", "looks", "within"].includes(name));
 
 /** The options of a view, or of a question that has more. */
 type Given = Checked<VisibilityOptions, typeof VIEW_ROWS>;
@@ -37,15 +32,18 @@ type Given = Checked<VisibilityOptions, typeof VIEW_ROWS>;
 /** Reads the options and checks their types. The core checks the ranges, since it knows the distances. */
 export function viewSettings(given: object, dimension: number): ViewSettings {
   checkRows(given as Record<string, unknown>, VIEW_ROWS, dimension);
-  const { looks, scores, thickness, surface = "auto", inversion, within } = given as Given;
+  const { inversion, looks, within, ...more } = given as Given & Record<string, unknown>;
   return {
     ...chosenRadius(given),
     ...(looks === undefined ? chosenInversion(inversion) : { kernel: Kernel.looks, parameter: looks }),
-    scores: scores ?? false,
-    thickness: typeof thickness === "number" ? thickness : AUTOMATIC,
-    surface: VIEW_ROWS.surface.words.indexOf(surface),
+    others: OTHERS.filter((name) => Object.hasOwn(more, name)).map((name) => [name, more[name]] as const),
     ...withinSettings(within, dimension),
   };
+}
+
+/** Whether the answer has scores. */
+export function hasScores({ others }: ViewSettings): boolean {
+  return others.some(([name, value]) => name === "scores" && value === true);
 }
 
 /** The settings of a view without options. */
@@ -54,9 +52,7 @@ export const NO_OPTIONS: ViewSettings = {
   size: 0,
   kernel: Kernel.spherical,
   parameter: 0,
-  scores: false,
-  thickness: AUTOMATIC,
-  surface: 0,
+  others: [],
   ...ALL_POINTS,
 };
 
