@@ -149,19 +149,20 @@ export async function buildPackage(): Promise<void> {
 async function buildDemo(): Promise<void> {
   const work = {
     name: "demo",
-    inputs: ["www", "dist", "package.json", "package-lock.json", "THIRD_PARTY.md", "docs/page.webp"],
+    inputs: ["www", "examples", "dist", "package.json", "package-lock.json", "THIRD_PARTY.md", "docs/page.webp"],
     ignore: ["www/dist", "www/public/samples"],
     outputs: ["www/dist/index.html", "www/dist/hidden-point-cloud.js", "www/dist/hidden-point-cloud.d.ts"],
   };
   const result = await unlessUnchanged(work, async () => {
     // The page is built first, because its build empties the folder.
-    for (const [what, config] of [
-      ["demo page", "www/vite.config.ts"],
-      ["element", "www/element/vite.config.ts"],
+    for (const [what, folder, config] of [
+      ["demo page", "www", "www/vite.config.ts"],
+      ["element", "www", "www/element/vite.config.ts"],
+      ["examples", "examples", "www/examples.vite.config.ts"],
     ] as const) {
       say(`Building the ${what}…`);
       const options = ["--config", config, "--configLoader", "runner", "--logLevel", "warn"];
-      await mustRun("vite", ["build", "www", ...options], `The ${what} could not be built`);
+      await mustRun("vite", ["build", folder, ...options], `The ${what} could not be built`);
     }
     // The licenses of the bundled code require it.
     copyFileSync(inRoot("THIRD_PARTY.md"), inRoot("www/dist/THIRD_PARTY.md"));

@@ -7,9 +7,9 @@ import { setUpBrowser } from "../setup/system.js";
 
 /** All files that a user of the npm package gets. */
 const WANTED =
-  /^(dist\/.+\.(js|js\.map|d\.ts|wasm)|docs\/[A-Z]+\.md|docs\/before-after\.png|(README|CHANGELOG|THIRD_PARTY)\.md|LICENSE-MIT|LICENSE-APACHE|package\.json)$/;
+  /^(dist\/.+\.(js|js\.map|d\.ts|wasm)|docs\/[A-Z]+\.md|docs\/before-after\.png|examples\/\w+\.\w+|(README|CHANGELOG|THIRD_PARTY)\.md|LICENSE-MIT|LICENSE-APACHE|package\.json)$/;
 /** Documents of README.md about the repository. A user of the package does not need them. */
-const OF_THE_REPOSITORY = /^(examples|python)\b|^docs\/(PAGE|MEASURED)|^(ARCHITECTURE|CONTRIBUTING|SECURITY)/;
+const OF_THE_REPOSITORY = /^python\b|^docs\/(PAGE|MEASURED)|^(ARCHITECTURE|CONTRIBUTING|SECURITY)/;
 const INDISPENSABLE = [
   "dist/index.js",
   "dist/index.d.ts",

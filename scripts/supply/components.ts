@@ -86,7 +86,7 @@ interface Manifest {
 const NOT_OF_THE_PAGE = /^(build|dist|public)\/|vite\.config\.ts$/;
 
 /**
- * The npm packages that the demo page may contain: the packages that its sources import, and all
+ * The npm packages that the demo page and its examples may contain: the packages that their sources import, and all
  * their dependencies. (The list may be too long, because a bundler leaves some out.)
  */
 export function modulesOfPage(): Component[] {
@@ -111,12 +111,16 @@ function publishedText(name: string): string | undefined {
 }
 
 function importedByPage(): string[] {
-  const www = inRoot("www");
-  const sources = readdirSync(www, { recursive: true, encoding: "utf8" }).filter(
-    (path) => path.endsWith(".ts") && !NOT_OF_THE_PAGE.test(path),
-  );
+  const filesOf = (folder: string, isOne: (path: string) => boolean) =>
+    readdirSync(inRoot(folder), { recursive: true, encoding: "utf8" })
+      .filter(isOne)
+      .map((path) => inRoot(folder, path));
+  const sources = [
+    ...filesOf("www", (path) => path.endsWith(".ts") && !NOT_OF_THE_PAGE.test(path)),
+    ...filesOf("examples", (path) => path.endsWith(".html")),
+  ];
   const names = sources.flatMap((path) => {
-    const text = readFileSync(join(www, path), "utf8");
+    const text = readFileSync(path, "utf8");
     return [...text.matchAll(/(?:from |import |import\()"((?:@[^/"]+\/)?[^./"@:][^/":]*)(?:\/[^"]*)?"/g)].map(
       ([, name]) => name!,
     );
