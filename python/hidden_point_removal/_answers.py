@@ -51,7 +51,7 @@ class Visibility:
         positions does."""
         if self._cloud is None:
             raise refusal("option", "this answer was copied without its cloud; index the positions by it, as in points[visible]")
-        return self._cloud._positions_of(self.indices)
+        return self._cloud.positions[self.indices]
 
     def mask(self) -> NDArray[np.bool_]:
         """One truth value for each index: True where the point is visible."""

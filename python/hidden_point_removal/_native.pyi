@@ -42,6 +42,9 @@ class PointCloud:
     def __new__(cls, positions: Positions, non_finite: Literal["error", "skip"] = "error") -> PointCloud: ...
     def __len__(self) -> int: ...
     @property
+    def positions(self) -> NDArray[Any]:
+        """The positions: (n, 3), in the cloud's precision. NaN where a point was removed or left out."""
+    @property
     def skipped(self) -> int:
         """How many points were left out because they are not finite."""
     @property
@@ -142,7 +145,6 @@ class PointCloud:
         """Adds points, which take the next indices."""
     def remove(self, indices: ArrayLike) -> None:
         """Removes points, by their indices or by a mask. Their indices are never given again."""
-    def _positions_of(self, indices: NDArray[np.uint32]) -> NDArray[Any]: ...
     def _transfer(
         self,
         cameras: Iterable[CameraLike],

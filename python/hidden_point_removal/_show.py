@@ -43,7 +43,7 @@ def show(cloud: PointCloud | Positions, visible: Visibility | ArrayLike | None =
     "option" for indices that the cloud does not have.
     """
     cloud = cloud if isinstance(cloud, PointCloud) else PointCloud(cloud)
-    positions = cloud._positions_of(np.arange(len(cloud), dtype=np.uint32))
+    positions = cloud.positions
     is_seen = np.full(len(positions), visible is None)
     if visible is not None:
         own = indices(visible, "visible", len(positions))

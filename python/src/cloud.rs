@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use hidden_point_removal as core;
 use hidden_point_removal::{Camera, CameraView, NonFinite, Options, Seat, Threads};
-use numpy::{IntoPyArray, PyArray1, PyArrayMethods, PyReadonlyArray1};
+use numpy::{IntoPyArray, PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyType};
 
@@ -256,6 +256,15 @@ impl PointCloud {
         self.cloud.get(py, core::PointCloud::len)
     }
 
+    /// The positions: (n, 3), in the cloud's precision. NaN where a point was removed or left out. A new array each time.
+    #[getter]
+    fn positions<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let (positions, is_single) =
+            self.ask_core(py, |cloud| Ok((cloud.positions()?, cloud.is_single())))?;
+        let place = |position: Option<[f64; 3]>| position.unwrap_or([f64::NAN; 3]);
+        in_precision(py, positions.into_iter().map(place).collect(), is_single)
+    }
+
     /// How many points were left out because they are not finite: int.
     #[getter]
     fn skipped(&self, py: Python<'_>) -> PyResult<usize> {
@@ -339,22 +348,6 @@ impl PointCloud {
             (positions, own.non_finite),
             removed.into_pyarray(py),
         ))
-    }
-
-    /// The positions of some points, in the cloud's precision. NaN for those that were removed.
-    fn _positions_of<'py>(
-        &self,
-        py: Python<'py>,
-        indices: PyReadonlyArray1<'_, u32>,
-    ) -> PyResult<Bound<'py, PyAny>> {
-        let indices = indices.as_array().to_vec();
-        let (positions, is_single) = self.ask_core(py, |cloud| {
-            let every = cloud.positions()?;
-            let of = |index: u32| every[index as usize].unwrap_or([f64::NAN; 3]);
-            let positions: Vec<_> = indices.into_iter().map(of).collect();
-            Ok((positions, cloud.is_single()))
-        })?;
-        in_precision(py, positions, is_single)
     }
 
     fn __setstate__(&self, py: Python<'_>, removed: &Bound<'_, PyAny>) -> PyResult<()> {

@@ -423,7 +423,9 @@ def test_an_answer_is_an_index(dtype):
     assert np.asarray(seen).dtype == np.int64 and np.asarray(seen, np.uint8).dtype == np.uint8
     assert list(seen) == seen.indices.tolist() and seen[-1] == seen.indices[-1]
     assert seen.points.dtype == dtype and np.array_equal(seen.points, points[seen])
+    assert cloud.positions.dtype == dtype and np.array_equal(cloud.positions, points)
     cloud.remove([seen[3]])
+    assert np.isnan(cloud.positions).all(axis=1).tolist() == [number == seen[3] for number in range(900)]
     assert np.isnan(seen.points).any(axis=1).tolist() == [number == 3 for number in range(len(seen))]
     assert PointCloud(points).visible_from([0, 0, 0], within={"distance": 0.0}).points.shape == (0, 3)
     shown = seen._repr_html_()

@@ -6,6 +6,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 ROOT = Path(__file__).parents[2]
@@ -35,6 +36,23 @@ def test_the_types_of_the_examples_are_right(document, tmp_path):
     words = ["mypy", "--strict", "--ignore-missing-imports", "example.py"]
     done = subprocess.run([sys.executable, "-m", *words], capture_output=True, text=True, cwd=tmp_path)
     assert done.returncode == 0, done.stdout
+
+
+def test_the_recipes_run(tmp_path):
+    pytest.importorskip("PIL", reason="Pillow is not installed")
+    from PIL import Image
+
+    np.save(tmp_path / "cloud.npy", np.random.default_rng(0).normal(size=(3000, 3)))
+    (tmp_path / "cameras.txt").write_text("1 PINHOLE 64 48 50 50 32 24\n")
+    (tmp_path / "images.txt").write_text("1 1 0 0 0 0 0 9 1 a.png\n\n2 0 1 0 0 0 0 9 1 b.png\n\n")
+    for name in "ab":
+        Image.new("RGB", (64, 48), (200, 100, 0)).save(tmp_path / f"{name}.png")
+    for recipe, *words in (("partial_views", "cloud.npy", "views.npz"), ("colmap_colors", "cloud.npy", ".", ".", "colored.txt")):
+        example = ROOT / "python" / "examples" / f"{recipe}.py"
+        subprocess.run([sys.executable, example, *words], check=True, capture_output=True, cwd=tmp_path)
+    views, colored = np.load(tmp_path / "views.npz"), np.loadtxt(tmp_path / "colored.txt")
+    assert len(views) == 16 and all(0 < len(views[name]) < 3000 for name in views)
+    assert 0 < len(colored) < 3000 and (colored[:, 3:] == [200, 100, 0]).all()
 
 
 def test_the_notebook_runs():

@@ -16,7 +16,7 @@ from hidden_point_removal import Horizon, HprError, PointCloud, _native, tiles, 
 TABLE = json.loads((Path(__file__).parents[2] / "src" / "options.json").read_text())
 OPTIONS = list(TABLE["view"]["options"])
 ASKS = [name for name in dir(PointCloud) if not name.startswith("_")]
-TAKE_NO_OPTIONS = {"append", "auto_radius", "noise", "remove", "skipped", "spacing", "surface"}
+TAKE_NO_OPTIONS = {"append", "auto_radius", "noise", "positions", "remove", "skipped", "spacing", "surface"}
 
 
 def public():
