@@ -156,7 +156,28 @@ describe.each(ADAPTERS.map((adapter) => [adapter.name, adapter] as const))("%s",
       await set({ looks: 2 });
       await set({ settle: { looks: 2, thickness: 0.3 } }, { looks: 2, thickness: 0.3 });
       await set({ thickness: 0.3 }, { looks: 3, thickness: 0.3 });
+      const change = async (
+        name: "exponent" | "looks" | "thickness" | "surface",
+        value: unknown,
+        options: VisibilityOptions,
+      ) => {
+        for (const filter of filters) {
+          Object.assign(filter, { [name]: value });
+          expect(filter[name]).toBe(value);
+        }
+        await rest(all, HERE);
+        expect(drawnOf(all)).toEqual(seen(HERE, options));
+      };
+      await change("exponent", 2, { exponent: 2 });
+      expect(filters.map(({ thickness }) => thickness)).toEqual(spheres.map(() => undefined));
+      await change("looks", 2, { looks: 2 });
+      expect(filters.map(({ exponent }) => exponent)).toEqual(spheres.map(() => undefined));
+      await change("surface", "noisy", { looks: 2, surface: "noisy" });
+      await change("surface", undefined, { looks: 2 });
+      await change("thickness", 0.3, { looks: 2, thickness: 0.3 });
+      await change("looks", undefined, { looks: 3, thickness: 0.3 });
       for (const filter of filters) {
+        expect(() => (filter.looks = 5 as never)).toThrow(expect.objectContaining({ code: "option" }));
         for (const wrong of [{ looks: 5 }, { looks: 3, exponent: 2 }, { worker: false }, 3]) {
           expect(() => filter.setOptions(wrong as never)).toThrow(expect.objectContaining({ code: "option" }));
         }

@@ -10,7 +10,7 @@ import { type AnswerKind, stagesFor } from "../follow/options.js";
 import type { Seen } from "../follow/view.js";
 import { type Cloud, see } from "../worker/followed-cloud.js";
 import { type FollowedCamera, FollowedCameras, inSpace, type Space } from "./cameras.js";
-import { type AskedOptions, changedSettings, type FilterSettings, readFilterOptions } from "./options.js";
+import { type AskedOptions, changedSettings, type FilterSettings, readFilterOptions, withOption } from "./options.js";
 
 /** An answer that is drawn. */
 export interface FilterChange {
@@ -161,6 +161,46 @@ export abstract class CameraFilter<Events extends FilterEvents> extends Sender<E
       throw error;
     }
     this.settings.given = settings.given;
+  }
+
+  /** The option `looks`. If it is set, `exponent`, `radius` and `inversion` are automatic. */
+  get looks(): 2 | 3 | undefined {
+    return this.settings.given.looks;
+  }
+
+  /** @throws HprError `option`. */
+  set looks(looks: 2 | 3 | undefined) {
+    this.setOptions(withOption(this.settings, "looks", looks));
+  }
+
+  /** The option `exponent`. If it is set, `looks`, `thickness`, `radius` and `inversion` are no longer. */
+  get exponent(): number | undefined {
+    return this.settings.given.exponent;
+  }
+
+  /** @throws HprError `option`. */
+  set exponent(exponent: number | undefined) {
+    this.setOptions(withOption(this.settings, "exponent", exponent));
+  }
+
+  /** The option `thickness` of the looks. */
+  get thickness(): number | "auto" | undefined {
+    return this.settings.given.thickness;
+  }
+
+  /** @throws HprError `option`. */
+  set thickness(thickness: number | "auto" | undefined) {
+    this.setOptions(withOption(this.settings, "thickness", thickness));
+  }
+
+  /** The option `surface` of the looks. */
+  get surface(): "auto" | "clean" | "noisy" | "layered" | undefined {
+    return this.settings.given.surface;
+  }
+
+  /** @throws HprError `option`. */
+  set surface(surface: "auto" | "clean" | "noisy" | "layered" | undefined) {
+    this.setOptions(withOption(this.settings, "surface", surface));
   }
 
   /**

@@ -94,6 +94,21 @@ export function readFilterOptions(options: unknown, others: readonly string[] = 
   };
 }
 
+/** The options that are properties of a filter, and those that each of them excludes. */
+const EXCLUDED = {
+  looks: ["radius", "exponent", "inversion"],
+  exponent: ["radius", "inversion", "looks", "thickness", "surface"],
+  thickness: [],
+  surface: [],
+} as const satisfies Record<string, readonly string[]>;
+
+/** The options that are asked with, after one has changed. Others that it excludes are dropped. */
+export function withOption({ given }: FilterSettings, name: keyof typeof EXCLUDED, value: unknown): AskedOptions {
+  const dropped: readonly string[] = value === undefined ? [] : EXCLUDED[name];
+  const kept = [...VIEW_OPTIONS, "settle"].filter((other) => !dropped.includes(other));
+  return { ...pick({ ...given }, kept), [name]: value };
+}
+
 /**
  * The settings with these options of a view and `settle` in place of those before.
  *
