@@ -112,17 +112,12 @@ impl VisibilityMap {
 pub fn choices(
     py: Python<'_>,
     points: Option<&Bound<'_, PyAny>>,
-    corners: Option<&Bound<'_, PyAny>>,
     towards: Option<&Bound<'_, PyAny>>,
     origin: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<MapOptions> {
-    let usual = MapOptions::default();
-    let size = |name, given: Option<&Bound<'_, PyAny>>, usual| {
-        given.map_or(Ok(usual), |given| count(py, name, given))
-    };
+    let usual = MapOptions::default().points;
     Ok(MapOptions {
-        points: size("points", points, usual.points)?,
-        corners: size("corners", corners, usual.corners)?,
+        points: points.map_or(Ok(usual), |given| count(py, "points", given))?,
         towards: towards.map(cone).transpose()?,
         origin: origin.map(|given| place(given, "origin")).transpose()?,
     })

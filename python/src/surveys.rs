@@ -269,35 +269,33 @@ impl PointCloud {
         python(py, "Calibration")?.call1((found.thickness, found.recall, found.shown, asked))
     }
 
-    #[doc = asks!("visibility_map($self, viewpoint, *, points=32768, corners=131072, towards=None, origin=None")]
+    #[doc = asks!("visibility_map($self, viewpoint, *, points=750000, towards=None, origin=None")]
     /// A map of directions, which tells for any number of places whether they are certainly hidden.
     ///
     /// viewpoint: 3 numbers.
-    /// points: int, at least 16. So many points has the map's hull at most.
-    /// corners: int, from 64 to 4194304. So many directions has the map at most.
+    /// points: int, at least 16. So many points of the cloud are looked through at most, with `towards` three times as
+    ///     many.
     /// towards: a camera, or a dict of direction (3 numbers) and angle (the full opening of a cone, in degrees). Only
-    ///     these directions get points and corners.
+    ///     of these directions is the map.
     /// origin: 3 numbers that positions in a shader are relative to. Default: 0 for float32, else the middle of the
     ///     cloud's box.
     /// Options: those of `visible_from`. Not with scores and "opposite".
     /// Returns a `VisibilityMap`.
     #[pyo3(
-        signature = (viewpoint, *, points=None, corners=None, towards=None, origin=None, **options),
+        signature = (viewpoint, *, points=None, towards=None, origin=None, **options),
         text_signature = None
     )]
-    #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
     fn visibility_map(
         &self,
         py: Python<'_>,
         viewpoint: &Bound<'_, PyAny>,
         points: Option<&Bound<'_, PyAny>>,
-        corners: Option<&Bound<'_, PyAny>>,
         towards: Option<&Bound<'_, PyAny>>,
         origin: Option<&Bound<'_, PyAny>>,
         options: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<VisibilityMap> {
         let viewpoint = place(viewpoint, "viewpoint")?;
-        let choices = map::choices(py, points, corners, towards, origin)?;
+        let choices = map::choices(py, points, towards, origin)?;
         let Asked { options, how } = options::read(py, options)?;
         let made = self.ask(py, how, |cloud| {
             cloud.visibility_map(viewpoint, &options, &choices)

@@ -99,7 +99,7 @@ def cases_of_cameras(cloud, viewpoint, ring):
     numbers = np.array([*placed.chosen, *placed.gains], float)
     yield "placeViewpoints", [[viewpoint, *others], {"count": 3}], digest(numbers, placed.seen, placed.unseen)
     yield "visibleFromAtLeast", [2, others], of_view(cloud.visible_from_at_least(2, own))
-    maps = cloud.visibility_map(viewpoint, points=500, corners=2000)
+    maps = cloud.visibility_map(viewpoint, points=500)
     numbers = np.array([*maps.uniforms["hprViewpoint"], *maps.uniforms["hprMargins"]], float)
     yield "visibilityMap", [viewpoint, {"points": 500, "corners": 2000}], digest(maps.data, numbers)
     towards = cloud.visibility_map(places[0], towards=own[0])

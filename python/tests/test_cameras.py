@@ -242,7 +242,6 @@ IMAGE = np.zeros((48, 64))
         ("option", "looks", lambda: transfer(CLOUD, CAMERAS, [IMAGE] * 3, weights="score", exponent=3)),
         ("option", "unknown option", lambda: transfer(CLOUD, CAMERAS, [IMAGE] * 3, colour=1)),
         ("option", "points", lambda: CLOUD.visibility_map(VIEWPOINT, points=3)),
-        ("option", "corners", lambda: CLOUD.visibility_map(VIEWPOINT, corners=0)),
         ("option", "towards", lambda: CLOUD.visibility_map(VIEWPOINT, towards=7)),
         ("option", "towards", lambda: CLOUD.visibility_map(VIEWPOINT, towards={"direction": [0, 0, 1]})),
         ("viewpoint", "fx", lambda: CLOUD.visibility_map(VIEWPOINT, towards={**camera(VIEWPOINT), "fx": 0.0})),

@@ -385,7 +385,7 @@ pub(crate) fn place(v: DVec3) -> (usize, f64, f64, f64) {
 
 /// x, y and z of `v` as a side of the cube counts them; z is negative behind the side.
 #[inline(always)]
-pub(super) fn turned(side: usize, v: DVec3) -> (f64, f64, f64) {
+pub(crate) fn turned(side: usize, v: DVec3) -> (f64, f64, f64) {
     let (x, y, z) = match side / 2 {
         0 => (v.x, v.y, v.z),
         1 => (v.y, v.z, v.x),
@@ -395,7 +395,7 @@ pub(super) fn turned(side: usize, v: DVec3) -> (f64, f64, f64) {
 }
 
 /// (x, y) on a side of the cube.
-pub(crate) fn direction(side: usize, x: f64, y: f64) -> DVec3 {
+fn direction(side: usize, x: f64, y: f64) -> DVec3 {
     let z = if side % 2 == 0 { 1.0 } else { -1.0 };
     match side / 2 {
         0 => DVec3::new(x, y, z),

@@ -28,12 +28,11 @@ mod order;
 mod outer_boundary;
 mod outer_faces;
 mod predicates;
-mod reaches;
 mod share;
 mod topology;
 
 pub(crate) use boxes::hides_box;
-pub(crate) use depth::{Window, direction, place};
+pub(crate) use depth::{Window, place, turned};
 #[cfg(feature = "higher")]
 pub(crate) use exact_sum::Parts;
 pub(crate) use kept::KeptHull;
@@ -43,5 +42,4 @@ pub(crate) use outer_boundary::{
     complete, go_on, mark_sector, mark_visible, triangulate_visible, visible_once,
 };
 pub(crate) use outer_faces::{Exit, OuterFaces};
-pub(crate) use reaches::{Reaches, Side, grid};
 pub(crate) use topology::{FaceId, Vertex};

@@ -9,7 +9,7 @@ use crate::wasm::objects::{list, object};
 use crate::wasm::options::ViewOptions;
 use crate::wasm::transfer::copy_out_singles;
 
-/// A map of directions around (x, y, z). `map` holds the numbers of points and of corners, a direction
+/// A map of directions around (x, y, z). `map` holds the number of points, a direction
 /// and its angle, and an origin. A number of 0 stands for the default, an angle of 0 stands for all directions, and an origin of infinity
 /// for none.
 #[wasm_bindgen(js_name = visibilityMap, unchecked_return_type = "MapAnswer")]
@@ -22,15 +22,15 @@ pub fn visibility_map(
     map: &Float64Array,
 ) -> Result<JsValue, JsValue> {
     let view = options.read();
-    let mut numbers = [0.0; 9];
+    let mut numbers = [0.0; 8];
     map.copy_to(&mut numbers);
-    let [points, corners, a, b, c, angle, origin @ ..] = numbers;
+    let [points, a, b, c, angle, origin @ ..] = numbers;
     with_memory(handle, [x, y, z], options, &view, |cloud, memory| {
-        let usual = MapOptions::default();
-        let size = |given: f64, usual| if given == 0.0 { usual } else { given as usize };
         let choices = MapOptions {
-            points: size(points, usual.points),
-            corners: size(corners, usual.corners),
+            points: match points {
+                0.0 => MapOptions::default().points,
+                points => points as usize,
+            },
             towards: (angle != 0.0).then_some(([a, b, c], angle)),
             origin: Some(origin).filter(|origin| origin[0] != f64::INFINITY),
         };

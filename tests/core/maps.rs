@@ -13,7 +13,6 @@ use crate::test;
 fn small() -> MapOptions {
     MapOptions {
         points: 300,
-        corners: 2000,
         ..MapOptions::default()
     }
 }
@@ -76,10 +75,7 @@ fn a_map_that_follows_a_viewpoint_hides_most() {
     let points = shapes::bumpy(&mut Rng::new(5), 40_000);
     let cloud = PointCloud::new(&points).unwrap();
     let options = Options::exponent(3.0);
-    let map = MapOptions {
-        points: 8000,
-        ..MapOptions::default()
-    };
+    let map = MapOptions::default();
     let mut observer = cloud.observer();
     for step in 0..12 {
         let angle = f64::from(step) * 0.035;
@@ -153,7 +149,6 @@ fn a_map_towards_some_directions_is_of_these() {
     let found = |towards| {
         let map = MapOptions {
             points: 4000,
-            corners: 8000,
             towards,
             ..MapOptions::default()
         };
@@ -174,7 +169,6 @@ fn wrong_maps_are_refused() {
     };
     let map = MapOptions::default();
     assert_eq!(refused(MapOptions { points: 1, ..map }), "option");
-    assert_eq!(refused(MapOptions { corners: 1, ..map }), "option");
     for (direction, angle) in [([1.0, 0.0, 0.0], 0.0), ([1.0, 0.0, 0.0], f64::NAN)] {
         let towards = Some((direction, angle));
         assert_eq!(refused(MapOptions { towards, ..map }), "option");

@@ -498,12 +498,12 @@ describe("maps", () => {
         round.use(asked);
         return asked;
       });
-    const usual = 32_768;
+    const usual = 750_000;
     // One slow map alone changes nothing.
     expect(points(80, 14, 80, 14, 80, 5)).toEqual([usual, usual, usual, usual, usual, usual]);
-    expect(points(20, 20, 18, 18, 15, 15)).toEqual([usual, usual, 26_214, 26_214, 20_971, 20_971]);
-    expect(points(...Array<number>(30).fill(90)).at(-1)).toBe(10_000);
-    expect(points(...Array<number>(30).fill(13)).at(-1)).toBe(10_000);
+    expect(points(20, 20, 18, 18, 15, 15)).toEqual([usual, usual, 600_000, 600_000, 480_000, 480_000]);
+    expect(points(...Array<number>(30).fill(90)).at(-1)).toBe(50_000);
+    expect(points(...Array<number>(30).fill(13)).at(-1)).toBe(50_000);
     expect(points(...Array<number>(30).fill(4)).at(-1)).toBe(usual);
   });
 });

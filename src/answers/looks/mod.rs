@@ -35,7 +35,6 @@ pub(crate) use corners::Corners;
 pub(crate) use look::Seen;
 pub(crate) use rays::Projection;
 pub(crate) use series::{Depth, Question, Series, even_scales, look_of_map, looked_at};
-pub(crate) use surface::longest_of;
 pub(crate) use triangle::Triangle;
 
 /// The scores of distinct points as those of the caller's indices; 0 where there is none.

@@ -21,9 +21,6 @@ use crate::view::resolved::check_viewpoint;
 
 /// The highest score of a hull vertex, by look.
 const SCORES: [f64; 3] = [1.0, 1.0, 0.9];
-/// How many times the scale of the last look is that of a map. Its points are `apart` times as far from
-/// each other as those of the cloud.
-const TIGHTER: f64 = 1.5;
 /// How far, in standard deviations of the noise, a point may be from its place without noise. Chosen
 /// on four views of a cow with noise of two spacings.
 const DEVIATIONS: f64 = 10.0;
@@ -57,7 +54,7 @@ pub(crate) struct Depth {
 }
 
 /// The hull of a map that stands in for looks: its flip, where points may be visible besides, and the farthest
-/// distance of a point.
+/// distance of a point. The map's points are `apart` times as far from each other as those of the cloud.
 #[inline(never)]
 pub(crate) fn look_of_map(
     cloud: &PointCloud,
@@ -71,7 +68,7 @@ pub(crate) fn look_of_map(
     let farthest = cloud.blocks.farthest_distance(points, viewpoint)?;
     let projection = Projection::Perspective(viewpoint);
     let tuning = Tuning::of(projection, cloud, survey, thickness, farthest)?;
-    let scale = TIGHTER * apart * tuning.scales[2];
+    let scale = apart * tuning.scales[2];
     let kernel = tuning.kernel(scale, farthest);
     let mut behind = tuning.thickness;
     if survey.is_some() && thickness.is_none() {

@@ -18,10 +18,11 @@
 //! well: there, all four corners take the distance of m.
 
 use crate::answers::visibility_map::hides::{MOST, VisibilityMap};
+use crate::answers::visibility_map::levels::{Champions, Levels, UNKNOWN};
 use crate::base::allocation::{OutOfMemory, filled};
 use crate::base::real::{larger, smaller, square_root};
 use crate::flip::inversion::Flip;
-use crate::hull::{Reaches, Window};
+use crate::hull::Window;
 
 /// Stands for a direction in which nothing is hidden.
 pub(super) const NOWHERE: f32 = f32::MAX;
@@ -31,23 +32,32 @@ const LEAST: f64 = 1e-30;
 const MOST_LOST: f64 = 0.5;
 /// The rounding to single precision, upwards.
 const UP: f64 = 1.0 + 2.4e-7;
-/// A bound of the relative errors of a flipped point, a dual plane and a reach.
+/// A bound of the relative errors of a flipped point, a bound of w and a reach.
 const ROUNDING: f64 = 1e-12;
 
 impl VisibilityMap {
-    /// Writes the distances of these reaches.
-    pub(super) fn fill(&mut self, reaches: &mut Reaches, flip: &Flip) -> Result<(), OutOfMemory> {
-        let cell = 1.0 / reaches.cells_per_unit;
-        let mut lengths = core::mem::take(&mut reaches.heights);
+    /// Writes the distances of the bounds of w.
+    #[inline(never)]
+    pub(super) fn fill(
+        &mut self,
+        champions: &Champions,
+        levels: &mut Levels,
+        flip: &Flip,
+    ) -> Result<(), OutOfMemory> {
+        let grid = &champions.grid;
+        let cell = 1.0 / grid.cells_per_unit;
+        let mut lengths = filled(grid.corners(), 0.0)?;
         let mut least = filled(lengths.len(), 0)?;
         let mut distances = filled(lengths.len(), NOWHERE)?;
-        for window in &reaches.windows {
+        for (side, window) in grid.used() {
+            let bounds = levels.bounds(champions, side, flip)?;
             each_corner(window, cell, &mut |place, _, squared| {
-                lengths[place] = square_root(squared) / lengths[place] * (1.0 - ROUNDING);
-                least[place] = lengths[place].to_bits();
+                let bound = bounds[place - window.first];
+                if bound < UNKNOWN {
+                    lengths[place] = square_root(squared) / bound * (1.0 - ROUNDING);
+                    least[place] = lengths[place].to_bits();
+                }
             });
-        }
-        for window in &reaches.windows {
             lower(window, cell, &lengths, &mut least);
             each_corner(window, cell, &mut |place, _, squared| {
                 if least[place] > 0 {
@@ -56,7 +66,7 @@ impl VisibilityMap {
                 }
             });
         }
-        self.set(reaches, &distances)
+        self.set(grid, &distances)
     }
 }
 

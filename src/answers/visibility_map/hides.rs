@@ -13,9 +13,9 @@
 
 use alloc::vec::Vec;
 
+use crate::answers::visibility_map::grid::Grid;
 use crate::base::allocation::{OutOfMemory, filled};
 use crate::base::real::square_root;
-use crate::hull::Reaches;
 
 /// The numbers before the first corner: eight for each side of the cube.
 const HEADER: usize = 48;
@@ -81,10 +81,10 @@ impl VisibilityMap {
     }
 
     /// Takes the distances along the corners of a grid.
-    pub(super) fn set(&mut self, reaches: &Reaches, distances: &[f32]) -> Result<(), OutOfMemory> {
+    pub(super) fn set(&mut self, grid: &Grid, distances: &[f32]) -> Result<(), OutOfMemory> {
         let len = (HEADER + distances.len()).next_multiple_of(ROW);
         let mut data = filled(len, 0.0)?;
-        for (to, window) in data.chunks_exact_mut(8).zip(&reaches.windows) {
+        for (to, window) in data.chunks_exact_mut(8).zip(&grid.windows) {
             let first = HEADER + window.first;
             to[..5].copy_from_slice(&[
                 window.x as f32,
@@ -95,7 +95,7 @@ impl VisibilityMap {
             ]);
         }
         data[HEADER..HEADER + distances.len()].copy_from_slice(distances);
-        let cells = reaches.cells_per_unit;
+        let cells = grid.cells_per_unit;
         let up = |x: f64| (x * (1.0 + UNIT)) as f32;
         self.numbers = [
             cells as f32,

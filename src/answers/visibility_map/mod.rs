@@ -1,44 +1,35 @@
 //! A map of directions that a shader can test points against, while the camera moves.
 //!
-//! INPUT    a cloud, a viewpoint, a budget of points and of corners.
+//! INPUT    a cloud, a viewpoint, a budget of points.
 //! OUTPUT   for each corner of a grid of directions a distance; a point beyond it is hidden.
-//! SUMMARY  K of a sample lies inside K of all points. So what the sample's hull hides is hidden
-//!          for certain: of an even sample, the nearest points in each direction
-//!          (`pool`). The reaches of the hull become distances (`depths`), or those of its triangles
-//!          where the map stands in for looks (`surface`). One comparison in single precision
-//!          tests a point (`hides`).
+//! SUMMARY  The nearest point in each cell of the grid is its champion (`grid`), of an even sample
+//!          of the cloud (`pool`). K contains all flipped points, so what the triangles of
+//!          champions hide is hidden for certain (`levels`). The bounds become distances
+//!          (`depths`), or those of surfaces where the map stands in for looks (`surface`).
+//!          One comparison in single precision tests a point (`hides`).
 
 mod depths;
+mod grid;
 mod hides;
+mod levels;
 mod options;
 pub(crate) mod pool;
 mod surface;
 
-use crate::answers::looks::{Depth, look_of_map, looked_at};
+use crate::answers::looks::{look_of_map, looked_at};
 use crate::answers::memory::ViewMemory;
 use crate::base::error::Error;
-use crate::base::real::square_root;
 use crate::cloud::point_cloud::PointCloud;
 use crate::cloud::points::Points;
 use crate::cloud::spatial::Bounds;
-use crate::hull;
 use crate::view::options::Options;
 use crate::view::refusals::QuestionKind;
-use crate::view::resolved::looks;
+use crate::view::resolved::{check_viewpoint, looks};
 pub use hides::VisibilityMap;
 pub use options::MapOptions;
-use pool::{FEW, MapMemory, Need, Pool};
-use surface::Look;
 
 /// Distances in a map are between the first number and the last one, in the cloud's units.
 const UNITS: core::ops::Range<f64> = 1e-15..1e15;
-
-/// Without a radius a map takes one in so many of the points that are probably visible in the whole cloud: more would cost
-/// much of what the exact answer costs. Looks cost more.
-const ONE_IN: f64 = 12.0;
-const ONE_IN_LOOKS: f64 = 2.0;
-/// The most corners for each point of a map, of which there are at least `FEW`.
-const CORNERS: usize = 5;
 
 impl PointCloud {
     /// A map that shows which points are certainly hidden from `viewpoint`: cheap to make, and
@@ -88,54 +79,33 @@ impl PointCloud {
         map: &MapOptions,
         origin: [f64; 3],
     ) -> Result<VisibilityMap, Error> {
-        let is_look = looks(options)?.is_some();
-        let mut survey = None;
-        if is_look {
-            survey = self.survey(options.surface, options.thickness)?;
-        }
-        let source = looked_at(&survey, self);
-        let MapMemory { hull, pool } = &mut memory.maps;
-        let is_smooth = !core::ptr::eq(source, self);
-        let points = &source.sequence.points;
-        let view = match is_look {
-            true => None,
-            false => Some(self.view(viewpoint, options)?),
-        };
-        let need = match &view {
-            // All of them, as far as there is room.
-            _ if map.towards.is_some() => Need::OneIn(1.0),
-            None => Need::OneIn(ONE_IN_LOOKS),
-            Some(view) if view.chosen.radius > 0.0 => Need::ForRadius(view.chosen.radius),
-            Some(_) => Need::OneIn(ONE_IN),
-        };
-        let pool = Pool::of(pool, points, is_smooth, map, &need)?;
-        let (chosen, stands_for) = pool.choose(viewpoint, map, need)?;
-        let (flip, depth, farthest) = match view {
-            None => {
-                let apart = square_root(stands_for);
-                look_of_map(self, survey.as_ref(), viewpoint, options.thickness, apart)?
-            }
-            Some(view) => (view.flip, Depth::default(), view.farthest),
-        };
         let mut made = VisibilityMap::empty(viewpoint, origin);
-        let reach = farthest + made.distance_of_origin();
-        if !UNITS.contains(&farthest) || reach > UNITS.end {
+        let is_in_units = |farthest: f64| {
+            UNITS.contains(&farthest) && farthest + made.distance_of_origin() <= UNITS.end
+        };
+        let maps = &mut memory.maps;
+        if looks(options)?.is_none() {
+            let view = self.view(viewpoint, options)?;
+            if is_in_units(view.farthest)
+                && let Some((champions, levels, _)) = maps.champions(self, false, viewpoint, map)?
+            {
+                made.fill(&champions, levels, &view.flip)?;
+            }
             return Ok(made);
         }
-        let flip = flip.rescaled_for(&chosen);
-        hull::complete(&chosen, &flip, hull)?;
-        let corners = map.corners.min(CORNERS * chosen.len().max(FEW));
-        if is_look {
-            let look = Look {
-                hull,
-                points: &chosen,
-                flip: &flip,
-                farthest,
-                depth,
-            };
-            made.fill_by_surface(look, corners)?;
-        } else if let Some(mut reaches) = hull.reaches(corners)? {
-            made.fill(&mut reaches, &flip)?;
+        check_viewpoint(viewpoint)?;
+        let survey = self.survey(options.surface, options.thickness)?;
+        let source = looked_at(&survey, self);
+        let is_smooth = !core::ptr::eq(source, self);
+        if let Some((champions, levels, apart)) =
+            maps.champions(source, is_smooth, viewpoint, map)?
+        {
+            let thickness = options.thickness;
+            let (flip, depth, farthest) =
+                look_of_map(self, survey.as_ref(), viewpoint, thickness, apart)?;
+            if is_in_units(farthest) {
+                made.fill_by_surface(&champions, levels, &flip, &depth)?;
+            }
         }
         Ok(made)
     }

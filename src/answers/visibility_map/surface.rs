@@ -1,99 +1,62 @@
-//! From the triangles of a hull to distances, for maps that stand in for looks.
+//! Distances for maps that stand in for looks.
 //!
 //! Looks show points that no single hull shows, so what certainly hides for one hull may hide them. A map of
 //! looks decides as looks do, with wider margins, since it has fewer points. A point is hidden that lies
-//! farther behind the triangle before it, back in its place, than the triangle's longest edge allows, and that the
-//! map's hull hides as well: where looks are loose, as at far ground, both differ. This is not proved; docs/LOOKS.md tells
+//! farther behind the triangle of champions before it, back in its place, than some times the triangle's longest edge, and
+//! that the gauge of a loose hull hides as well. This is not proved; docs/LOOKS.md tells
 //! how often it is wrong.
 
-use glam::DVec3;
-
-use crate::answers::looks::{Corners, Depth, Triangle, longest_of};
+use crate::answers::looks::Depth;
 use crate::answers::visibility_map::depths::{NOWHERE, each_corner, stored};
+use crate::answers::visibility_map::grid::Grid;
 use crate::answers::visibility_map::hides::VisibilityMap;
+use crate::answers::visibility_map::levels::{Champions, Levels, UNKNOWN};
 use crate::base::allocation::{OutOfMemory, copied, filled, with_capacity};
-use crate::base::error::Error;
 use crate::base::real::{larger, smaller, square_root};
-use crate::cloud::points::Points;
 use crate::flip::inversion::Flip;
-use crate::hull::{Memory, Reaches, Window, direction};
 
-/// How many longest edges behind it a triangle hides a point: one that is surface, and another one.
-const BEHIND: [f64; 2] = [2.0, 4.0];
 /// How far into a cell an edge reaches: a camera that has moved on sees past it.
 const BESIDE: f32 = 0.25;
-/// The triangles along one in so many corners tell how long those of a surface are.
-const SAMPLE: usize = 16;
-/// The hull of a map, and where points may be visible besides.
-pub(super) struct Look<'a> {
-    pub hull: &'a mut Memory,
-    pub points: &'a Points,
-    pub flip: &'a Flip,
-    pub farthest: f64,
-    pub depth: Depth,
-}
 
 impl VisibilityMap {
-    /// Writes the distances behind the triangles of a look.
-    pub(super) fn fill_by_surface(&mut self, look: Look, count: usize) -> Result<(), Error> {
-        let Look {
-            hull,
-            points,
-            flip,
-            farthest,
-            depth: Depth { behind, aside },
-        } = look;
-        let place = |own: u32| DVec3::from_array(points.get(own as usize)) - flip.viewpoint();
-        let Some(faces) = hull.outer_faces(points, flip, farthest)? else {
-            return Ok(());
-        };
-        let corners = Corners::of(&faces, &place, &|_| f64::INFINITY)?;
-        let Some(reaches) = hull.reaches(count)? else {
-            return Ok(());
-        };
-        let mut lengths = with_capacity(reaches.faces.len().div_ceil(SAMPLE))?;
-        each_triangle(
-            hull,
-            &reaches,
-            &corners,
-            SAMPLE,
-            &mut |_, ahead, triangle| {
-                if triangle.is_facing(ahead, None) {
-                    lengths.push(triangle.longest / triangle.size);
+    /// Writes the distances behind the surfaces of a look.
+    #[inline(never)]
+    pub(super) fn fill_by_surface(
+        &mut self,
+        champions: &Champions,
+        levels: &mut Levels,
+        flip: &Flip,
+        depth: &Depth,
+    ) -> Result<(), OutOfMemory> {
+        let grid = &champions.grid;
+        let cell = 1.0 / grid.cells_per_unit;
+        let mut distances = filled(grid.corners(), NOWHERE)?;
+        for (side, window) in grid.used() {
+            let bounds = levels.bounds(champions, side, flip)?;
+            each_corner(window, cell, &mut |place, _, squared| {
+                let bound = bounds[place - window.first];
+                if bound < UNKNOWN {
+                    distances[place] = stored(flip.distance_at(square_root(squared) / bound));
                 }
-            },
-        );
-        let longest = longest_of(&lengths)?;
-        let mut distances = filled(reaches.faces.len(), NOWHERE)?;
-        each_triangle(
-            hull,
-            &reaches,
-            &corners,
-            1,
-            &mut |place, ahead, triangle| {
-                let length = square_root(ahead.length_squared());
-                let before = triangle.crossing(ahead) * length;
-                let is_surface = triangle.longest <= longest * triangle.size;
-                let behind = BEHIND[usize::from(!is_surface)] * triangle.longest + behind;
-                if before > 0.0 {
-                    let reach = length / reaches.heights[place];
-                    distances[place] = stored(larger(before + behind, flip.distance_at(reach)));
-                }
-            },
-        );
-        if aside > 0.0 {
-            widen(&reaches, aside, &mut distances)?;
+            });
+            let surface = levels.surface(champions, side, flip.viewpoint(), depth.behind)?;
+            let both = distances[window.first..].iter_mut().zip(surface);
+            for (distance, &surface) in both {
+                *distance = distance.max(stored(surface));
+            }
         }
-        spread(&reaches.windows, &mut distances)?;
-        self.set(&reaches, &distances)?;
-        Ok(())
+        if depth.aside > 0.0 {
+            widen(grid, depth.aside, &mut distances)?;
+        }
+        spread(grid, &mut distances)?;
+        self.set(grid, &distances)
     }
 }
 
 /// Takes the distance of each corner a part of the way to those beside it that are larger.
-fn spread(windows: &[Window; 6], distances: &mut [f32]) -> Result<(), OutOfMemory> {
+fn spread(grid: &Grid, distances: &mut [f32]) -> Result<(), OutOfMemory> {
     let before = copied(distances)?;
-    for window in windows {
+    for (_, window) in grid.used() {
         let corners = window.first..window.first + window.corners();
         let before = &before[corners.clone()];
         let across = window.columns + 1;
@@ -115,14 +78,14 @@ fn spread(windows: &[Window; 6], distances: &mut [f32]) -> Result<(), OutOfMemor
 
 /// Gives each corner the largest distance of those that are at most `aside` beside it, where its surface is: a surface with
 /// a thickness shows what lies so near to its outline.
-fn widen(reaches: &Reaches, aside: f64, distances: &mut [f32]) -> Result<(), OutOfMemory> {
-    let cell = 1.0 / reaches.cells_per_unit;
+fn widen(grid: &Grid, aside: f64, distances: &mut [f32]) -> Result<(), OutOfMemory> {
+    let cell = 1.0 / grid.cells_per_unit;
     let mut cells = with_capacity(distances.len())?;
     let shares = distances
         .iter()
         .map(|&distance| aside / f64::from(distance));
     cells.extend(shares);
-    for window in &reaches.windows {
+    for (_, window) in grid.used() {
         each_corner(window, cell, &mut |place, _, squared| {
             cells[place] *= squared / cell;
         });
@@ -162,24 +125,4 @@ fn widen(reaches: &Reaches, aside: f64, distances: &mut [f32]) -> Result<(), Out
         }
     }
     Ok(())
-}
-
-/// Passes the triangle along every `step`th corner, the corner's index and its direction.
-fn each_triangle(
-    hull: &Memory,
-    reaches: &Reaches,
-    corners: &Corners,
-    step: usize,
-    pass: &mut dyn FnMut(usize, DVec3, Triangle),
-) {
-    let cell = 1.0 / reaches.cells_per_unit;
-    for (side, window) in reaches.windows.iter().enumerate() {
-        each_corner(window, cell, &mut |place, [x, y], _| {
-            if place % step == 0 && reaches.heights[place] < f64::INFINITY {
-                let vertices = hull.corners(reaches.faces[place]);
-                let triangle = Triangle::of(vertices, corners);
-                pass(place, direction(side, x, y), triangle);
-            }
-        });
-    }
 }

@@ -33,7 +33,7 @@ const performers: { [K in QueryKind]: (target: Target, query: Query<K>) => Answe
 
   visibilityMap: ({ instance, handle }, { viewpoint, settings, map, camera }) => {
     const [x, y, z] = viewpoint;
-    if (camera) map.set(instance.call((bindings) => bindings.cameraPlace(camera)).subarray(3), 2);
+    if (camera) map.set(instance.call((bindings) => bindings.cameraPlace(camera)).subarray(3), 1);
     return { ...instance.call((bindings) => bindings.visibilityMap(handle, x, y, z, settings, map)), viewpoint };
   },
 

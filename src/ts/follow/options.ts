@@ -48,7 +48,7 @@ export interface FollowSettings {
 export const FOLLOW_OPTIONS = ["settle", "stale"] as const;
 
 /** A cloud with fewer points is answered within a frame, so that no map is asked. */
-const MAPPED_FROM = 10_000;
+const MAPPED_FROM = 20_000;
 /** A viewpoint that has not moved for this number of milliseconds is at rest. */
 export const REST = 100;
 /** With one of these options, the exact answer of the view itself is the final one. */

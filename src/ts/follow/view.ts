@@ -12,7 +12,7 @@ export interface AskedStage<Options = unknown> extends Stage<Options> {
   readonly signal: AbortSignal;
   /** Whether the view has not moved since the question. */
   readonly isCurrent: () => boolean;
-  /** How many points a map should have, so that each frame gets one. */
+  /** How many points a map should look through, so that each frame gets one. */
   readonly points: number;
 }
 
@@ -232,11 +232,11 @@ export class FollowedView extends Refinement<VisibilityOptions> {
 
 /** A map that takes longer, in milliseconds, is older than a frame when it is drawn. */
 const FRAME = 16;
-/** As many points as a map has by default. */
-const MOST = 32_768;
-const LEAST = 10_000;
+/** As many points as a map looks through by default. */
+const MOST = 750_000;
+const LEAST = 50_000;
 
-/** How many points the next map has: so many that it takes a frame, also on a slower machine. */
+/** How many points the next map looks through: so many that it takes a frame, also on a slower machine. */
 class Pace {
   #points = MOST;
   #before = FRAME;

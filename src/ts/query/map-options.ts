@@ -16,11 +16,11 @@ export interface MapNumbers {
 }
 
 export function mapNumbers(given: Checked<VisibilityMapOptions, typeof MAP_ROWS>): MapNumbers {
-  const { points = 0, corners = 0, towards, origin } = given;
+  const { points = 0, towards, origin } = given;
   const camera = isCamera(towards) ? readCamera(towards) : undefined;
   const cone = camera || towards === undefined ? [0, 0, 0, 0] : readCone(towards);
   const place = origin === undefined ? [Infinity, 0, 0] : readViewpoint(origin, 3, "origin");
-  return { map: Float64Array.of(points, corners, ...cone, ...place), camera };
+  return { map: Float64Array.of(points, ...cone, ...place), camera };
 }
 
 function readCone(towards: unknown): number[] {

@@ -16,8 +16,6 @@ import { override } from "../base/override.js";
 import { type MapPatch, patchMaterial, type PatchMaterial } from "./map-material.js";
 
 const WIDTH = 256;
-/** Rows for a map of the default number of corners. */
-const ROWS = 514;
 const IDENTITY = new Matrix4();
 
 /** A map and its texture. */
@@ -38,8 +36,9 @@ export class MapTextures {
     let texture = last?.texture;
     if (texture === undefined || texture.image.data!.length < length) {
       texture?.dispose();
-      const numbers = new Float32Array(Math.max(ROWS * WIDTH, length));
-      texture = new DataTexture(numbers, WIDTH, numbers.length / WIDTH, RedFormat, FloatType);
+      // The next maps may be somewhat larger.
+      const rows = Math.ceil((1.25 * length) / WIDTH);
+      texture = new DataTexture(new Float32Array(rows * WIDTH), WIDTH, rows, RedFormat, FloatType);
     }
     (texture.image.data as Float32Array).set(map.data);
     texture.needsUpdate = true;

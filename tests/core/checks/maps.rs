@@ -173,8 +173,7 @@ fn any_subject(rng: &mut Rng) -> (&'static str, Points, [f64; 3]) {
 /// Any size, any directions, and one origin of three.
 fn size(rng: &mut Rng, from: [f64; 3], visible: &[[f64; 3]]) -> MapOptions {
     let mut asked = MapOptions {
-        points: 16 << rng.below(11),
-        corners: 64 << rng.below(13),
+        points: 16 << rng.below(14),
         ..MapOptions::default()
     };
     if rng.chance(3) {
