@@ -1,6 +1,5 @@
 import { expect, test } from "vitest";
-import type { TimedView } from "../../www/view/inquiry.js";
-import { captionOf, methodOf, sentenceOf } from "../../www/view/sentence.js";
+import { captionOf, foundBy, sentenceOf, type TimedView } from "../../www/view/inquiry.js";
 import { addStyle } from "./site.js";
 import {
   answerInNode,
@@ -151,9 +150,9 @@ test("the sentence, the caption and the method have a singular, a plural and rou
   expect(captionOf(answer(1), 1, false)).toBe("1 point. 1 can be seen from here.");
   expect(captionOf(answer(38_083), 100_250, false)).toBe("100,000 points. 38,000 can be seen from here.");
   expect(captionOf(answer(57_000), 100_250, true)).toBe("100,000 points. 57,000 can be seen from the eye.");
-  expect(methodOf(answer(1), 1)).toBe("100\u00a0% of the points, found by 3 looks in 3.0\u00a0ms.");
-  expect(methodOf(answer(1), 900)).toMatch(/^<\s1\s% of the points, /);
-  expect(methodOf(answer(899), 900)).toMatch(/^>\s99\s% of the points, /);
+  expect(foundBy(answer(1), 1)).toBe("100\u00a0% of the points, found by 3 looks in 3.0\u00a0ms.");
+  expect(foundBy(answer(1), 900)).toMatch(/^<\s1\s% of the points, /);
+  expect(foundBy(answer(899), 900)).toMatch(/^>\s99\s% of the points, /);
 });
 
 test("the sentence is announced once, after the movement", async () => {

@@ -52,6 +52,7 @@ describe.each(ADAPTERS.map((adapter) => [adapter.name, adapter] as const))("%s",
       expect(all.map(({ answer }) => answer)).toEqual(spheres.map(() => null));
       for (const place of [HERE, THERE]) {
         await rest(all, place);
+        expect(started.length).toBe(1);
         const [exact, looks] = [seen(place, { exponent: 3 }), seen(place, { looks: 3 })];
         expect(drawnOf(all)).toEqual(looks);
         all.forEach(({ changes, answer }, k) => {
@@ -223,6 +224,10 @@ describe.each(ADAPTERS.map((adapter) => [adapter.name, adapter] as const))("%s",
         expect(drawnOf(all).map(({ length }) => length)).toEqual(spheres.map(() => COUNT));
       }
       expect(all.flatMap(({ errors }) => errors)).toEqual([]);
+      for (const one of await page()) {
+        await one.dispose();
+        if (one.filter !== undefined) expect((await problemOf(() => one.filter!.ready)).code).toBe("disposed");
+      }
     });
 
     it("tells of a refusal once until there is an answer, and goes on at places where there is none", async () => {
@@ -255,6 +260,13 @@ describe.each(ADAPTERS.map((adapter) => [adapter.name, adapter] as const))("%s",
       [{ settle: { looks: 5 } }, "settle: looks"],
       [{ settle: { stale: "all" } }, "settle: unknown option"],
       [{ exponents: 2 }, "unknown option"],
+      [{ exponent: "2" }, "exponent"],
+      [{ radius: "nearest" }, "radius"],
+      [{ settle: 1 }, "settle"],
+      [{ mode: "fade" }, "mode"],
+      [{ mode: "dim", dimMaterial: {} }, "dimMaterial"],
+      [{ worker: 1 }, "worker"],
+      [{ nonFinite: "keep" }, "nonFinite"],
       [{ radius: 5, exponent: 2 }, "exclude"],
       [{ moveThreshold: 1 }, "unknown option"],
       [{ thickness: 0.1, exponent: 2 }, "thickness"],

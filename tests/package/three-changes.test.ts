@@ -1,4 +1,4 @@
-// The adapter for three.js: refusals, changes of its points, and many filters on one page.
+// The adapter for three.js: refusals and changes of its points. tests/package/adapters.test.ts has what all adapters share.
 import { init, PointCloud } from "hidden-point-removal";
 import { HiddenPointNodesFilter } from "hidden-point-removal/nodes";
 import { HiddenPointFilter } from "hidden-point-removal/three";
@@ -8,7 +8,7 @@ import { afterEach, beforeAll, beforeEach, describe, expect, it, vi } from "vite
 import { pointsOf } from "./adapters";
 import { CountedWorker, OriginalWorker, replaceWorker, running } from "./node-workers";
 import { bumpySphere, problemOf } from "./support";
-import { type Adapter, adapterFor, drawn, type Filter, nextChange, type Scene, sceneOf } from "./three-support";
+import { type Adapter, adapterFor, drawn, type Filter, type Scene, sceneOf } from "./three-support";
 
 const sphere = bumpySphere(1, 3000);
 const other = bumpySphere(2, 2000);
@@ -108,23 +108,6 @@ describe("a filter", () => {
       }
     });
 
-    it.each<[options: object, words: string]>([
-      [{ mode: "fade" }, "mode"],
-      [{ worker: 1 }, "worker"],
-      [{ nonFinite: "keep" }, "nonFinite"],
-      [{ exponents: 2 }, "exponents"],
-      [{ exponent: "2" }, "exponent"],
-      [{ radius: 5, exponent: 2 }, "exclude"],
-      [{ mode: "dim", dimMaterial: {} }, "dimMaterial"],
-    ])("the options %o", async (options, words) => {
-      const { points, geometry } = sceneOf(adapter, sphere);
-      const problem = await problemOf(() => new adapter.HiddenPointFilter(points, loose(options)));
-      expect(problem).toMatchObject({ code: "option", message: expect.stringContaining(words) as string });
-      // Nothing is left behind.
-      filterFor(points, { worker: false });
-      expect(geometry.index).toBeNull();
-    });
-
     it("a material that it cannot dim, but not one to dim with", () => {
       const { points, camera } = sceneOf(adapter, sphere);
       points.material = loose(new adapter.THREE.ShaderMaterial());
@@ -208,15 +191,6 @@ describe("a filter", () => {
       sighted.update(loose({}));
       expect(said).toEqual(["option"]);
     });
-  });
-
-  it("can be disposed of before it is ready", async () => {
-    const { points, camera, geometry } = sceneOf(adapter, sphere);
-    const filter = filterFor(points);
-    filter.update(camera);
-    filter.dispose();
-    expect((await problemOf(() => filter.ready)).code).toBe("disposed");
-    expect(geometry.index).toBeNull();
   });
 
   describe("takes up changes of", () => {
@@ -381,28 +355,6 @@ describe("a filter", () => {
       const visible = new Set(drawn(geometry));
       expect(drawn(geometry)).toEqual(ids.filter((id) => visible.has(id)));
       expect(drawn((points.children[0] as Scene["points"]).geometry)).toEqual(ids.filter((id) => !visible.has(id)));
-    });
-  });
-
-  describe("many filters", () => {
-    it("share one worker, which ends with the last of them", async () => {
-      const scenes = Array.from({ length: 8 }, (_, i) => sceneOf(adapter, bumpySphere(i, 500 + 100 * i)));
-      const all = scenes.map(({ points }) => filterFor(points));
-      all.forEach((filter, i) => {
-        filter.update(scenes[i]!.camera);
-      });
-      await Promise.all(all.map((filter) => filter.ready));
-      expect(running.size).toBe(1);
-      scenes.forEach(({ geometry }, i) => {
-        expect(drawn(geometry)).toEqual(visibleFrom([0, 0, 5], bumpySphere(i, 500 + 100 * i)));
-      });
-      for (const filter of all.slice(1)) filter.dispose();
-      scenes[0]!.camera.position.x = 3;
-      const change = nextChange(all[0]!);
-      all[0]!.update(scenes[0]!.camera);
-      await change;
-      expect(drawn(scenes[0]!.geometry)).toEqual(visibleFrom([3, 0, 5], bumpySphere(0, 500)));
-      expect(running.size).toBe(1);
     });
   });
 });

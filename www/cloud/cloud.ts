@@ -1,4 +1,3 @@
-import type { Spacing } from "./spacing.ts";
 import type { Up } from "../../src/ts/formats/axes.js";
 import type { FileStation } from "../../src/ts/formats/cloud-file.js";
 import type { Values } from "../../src/ts/formats/numbers.js";
@@ -105,4 +104,11 @@ export interface FileFacts {
   las?: LasSource;
   /** How many columns of the file are not kept, because they would take too much memory. */
   dropped?: number;
+}
+
+/** How far apart the points of a cloud are: typically, and near each point. */
+export interface Spacing {
+  typical: number;
+  /** One byte a point: `typical` · 2 ^ ((byte − 128) / 32). */
+  local: Uint8Array<ArrayBuffer>;
 }

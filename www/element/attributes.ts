@@ -9,7 +9,31 @@ import {
 import { SAMPLES } from "../samples/samples.ts";
 import { canLook, type Settings, USUAL_SETTINGS, withLooks } from "../settings/settings.ts";
 import type { AskedView } from "../view/framing.ts";
-import { Problem } from "./problem.ts";
+import { HprError } from "hidden-point-removal";
+import { LoadProblem } from "../loaders/protocol.ts";
+import type { HiddenPointCloudError } from "./api.ts";
+import { PLACE } from "../settings/kinds.ts";
+
+/** The error of an `error` event. */
+export class Problem extends Error implements HiddenPointCloudError {
+  override readonly name = "HiddenPointCloudError";
+  readonly code: string;
+  declare readonly attribute?: string;
+
+  constructor(code: string, message: string, options: { attribute?: string; cause?: unknown } = {}) {
+    super(message, "cause" in options ? { cause: options.cause } : {});
+    this.code = code;
+    if (options.attribute !== undefined) this.attribute = options.attribute;
+  }
+}
+
+/** Makes a problem of the element from anything that was thrown. */
+export function problemOf(thrown: unknown, name: string): Problem {
+  if (thrown instanceof Problem) return thrown;
+  if (thrown instanceof LoadProblem) return new Problem("source", thrown.message, { cause: thrown });
+  const [code, message] = thrown instanceof HprError ? [thrown.code, thrown.message] : ["internal", String(thrown)];
+  return new Problem(code, `${name} could not be shown: ${message.replace(/\.$/, "")}.`, { cause: thrown });
+}
 
 /** An attribute of the element. Its property has the same name in camel case. */
 export interface Attribute {
@@ -163,4 +187,87 @@ export function changedSettings(before: Reading, now: Reading, usual: Partial<Se
     ([name, value]) => JSON.stringify(value) !== JSON.stringify(old[name as keyof Settings]),
   );
   return Object.fromEntries(changed);
+}
+
+/** Gives a class of elements the properties of the attributes, except for the places, which need the camera. */
+export function reflect(prototype: Element): void {
+  for (const attribute of ATTRIBUTE_NAMES) {
+    const get = getterOf(attribute);
+    if (!get) continue;
+    const isFlag = rowOf(attribute).property === "flag";
+    Object.defineProperty(prototype, propertyOf(attribute), {
+      configurable: true,
+      enumerable: true,
+      get(this: Element) {
+        return get(this);
+      },
+      set(this: Element, given: unknown) {
+        write(this, attribute, isFlag ? (given ? "" : null) : textOf(given));
+      },
+    });
+  }
+}
+
+/** The values of `value` properties whose attribute cannot be used. A property that is not listed is `null` then. */
+const OTHERWISE: Partial<Record<AttributeName, unknown>> = { "hidden-points": SETTINGS.hidden.usual };
+
+/** The getter of a property. `null` if the class itself defines the property. */
+function getterOf(attribute: AttributeName): ((element: Element) => unknown) | null {
+  switch (rowOf(attribute).property) {
+    case "text":
+      return (element) => element.getAttribute(attribute);
+    case "flag":
+      return (element) => element.hasAttribute(attribute);
+    case "value":
+      return (element) => anyValueOf(element, attribute) ?? OTHERWISE[attribute] ?? null;
+    case "word":
+      return (element) => (anyValueOf(element, attribute) === undefined ? null : element.getAttribute(attribute));
+    case "own":
+      return attribute === "radius" ? radius : null;
+  }
+}
+
+/** The radius as a property: the name of a rule, or a number. */
+function radius(element: Element): unknown {
+  const chosen = valueOf(element, "radius");
+  if (!chosen || "exponent" in chosen) return null;
+  return "rule" in chosen ? chosen.rule : chosen.length;
+}
+
+/** Any value as text: the attribute's own check refuses a text that cannot be used. */
+function textOf(given: unknown): string | null {
+  // oxlint-disable-next-line typescript/no-base-to-string
+  return given === null || given === undefined ? null : String(given);
+}
+
+/** Writes an attribute. `null` takes it away. */
+export function write(element: Element, attribute: AttributeName, given: string | null): void {
+  if (given === null) element.removeAttribute(attribute);
+  else element.setAttribute(attribute, given);
+}
+
+/**
+ * Takes over the properties that were set on an element before the module was loaded. They would hide the properties of
+ * the class.
+ */
+export function adoptEarly(element: Element): void {
+  for (const name of ATTRIBUTE_NAMES.map(propertyOf)) {
+    const descriptor = Object.getOwnPropertyDescriptor(element, name);
+    if (!descriptor) continue;
+    // oxlint-disable-next-line typescript/no-dynamic-delete
+    delete (element as unknown as Record<string, unknown>)[name];
+    (element as unknown as Record<string, unknown>)[name] = descriptor.value;
+  }
+}
+
+/** The name of the property: the attribute's name in camel case. */
+function propertyOf(attribute: AttributeName): string {
+  return attribute.replace(/-(\w)/g, (_, letter: string) => letter.toUpperCase());
+}
+
+/** A place that a page has given, as three finite numbers. */
+export function placeOf(given: ArrayLike<number>): [number, number, number] {
+  const place = PLACE.parse(Array.from(given).join(","));
+  if (!place) throw new TypeError("expected three finite numbers");
+  return place;
 }

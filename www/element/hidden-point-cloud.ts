@@ -2,12 +2,20 @@ import type { TimedView } from "../view/inquiry.ts";
 import { SETTINGS } from "../settings/table.ts";
 import { canDraw } from "../view/theme.ts";
 import type * as Api from "./api.ts";
-import { ATTRIBUTE_NAMES, readAttributes, type Reading, SOURCES, valueOf } from "./attributes.ts";
+import {
+  adoptEarly,
+  ATTRIBUTE_NAMES,
+  placeOf,
+  Problem,
+  readAttributes,
+  type Reading,
+  reflect,
+  SOURCES,
+  valueOf,
+  write,
+} from "./attributes.ts";
 import { Frame } from "./frame.ts";
-import { Pointing } from "./pointing.ts";
-import { Problem } from "./problem.ts";
-import { adoptEarly, placeOf, reflect, write } from "./properties.ts";
-import { type Listener, Showing } from "./showing.ts";
+import { type Listener, Pointing, Showing } from "./showing.ts";
 
 type Events = Api.HiddenPointCloudEventMap;
 type Reflected = Exclude<

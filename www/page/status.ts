@@ -1,8 +1,7 @@
 import type { Inversion } from "../settings/settings.ts";
 import { SETTINGS } from "../settings/table.ts";
-import type { Mapped, TimedView } from "../view/inquiry.ts";
+import { captionOf, foundBy, type Mapped, sentenceOf, type TimedView } from "../view/inquiry.ts";
 import { byId } from "../controls/controls.ts";
-import { captionOf, methodOf, sentenceOf } from "../view/sentence.ts";
 
 /** Milliseconds between two changes of the sentence. A sentence that stays for this time is announced. */
 const CALM = 800;
@@ -109,7 +108,7 @@ export class Status {
     }
     this.#answered = captionOf(this.#last, total, frozen);
     this.#say(sentenceOf(this.#last, total, frozen), this.#answered);
-    this.#method.textContent = methodOf(this.#last, total);
+    this.#method.textContent = foundBy(this.#last, total);
   }
 
   /** Lets the next sentence be read at once. */

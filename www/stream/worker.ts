@@ -4,7 +4,7 @@ import { type Octree, openOctree } from "hidden-point-removal/stream";
 import type { Streamed } from "../cloud/cloud.ts";
 import { compileFiles } from "../loaders/download.ts";
 import { LoadProblem } from "../loaders/protocol.ts";
-import type { StreamReply, StreamStep, StreamTold, StreamView } from "./reader.ts";
+import type { StreamReply, StreamStep, StreamTold, StreamView } from "./streamed-inquiry.ts";
 
 /** The most points that are kept for the next view. */
 const KEPT = 4_000_000;

@@ -1,5 +1,5 @@
 import { Matrix4, type PerspectiveCamera } from "three";
-import { localSpacing } from "../cloud/spacing.ts";
+import { localSpacing } from "../cloud/prepare.ts";
 import { MOST_PIXELS } from "../view/points.ts";
 import type { Viewer } from "../view/viewer.ts";
 

@@ -1,6 +1,6 @@
 import { type Attribute, type Cloud, type Up, upVector, type Values } from "../cloud/cloud.ts";
 import { OWN_COLORS } from "../settings/settings.ts";
-import { spreadOf } from "../cloud/spacing.ts";
+import { spreadOf } from "../cloud/prepare.ts";
 import type { Theme } from "./theme.ts";
 
 const PLAIN = "plain";

@@ -10,7 +10,7 @@ import {
   Vector3,
 } from "three";
 import { type Cloud, type Up, upVector } from "../cloud/cloud.ts";
-import { LOCAL_SPACING, spreadOf } from "../cloud/spacing.ts";
+import { LOCAL_SPACING, spreadOf } from "../cloud/prepare.ts";
 import { display, type Theme } from "./theme.ts";
 
 /** The share of a selected point's own color that is covered. */

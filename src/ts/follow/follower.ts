@@ -117,11 +117,6 @@ export class Follower {
     this.follow();
   }
 
-  /** Brings back a lost worker now, and begins the next round. */
-  restart(): void {
-    this.#recovery.begin();
-  }
-
   /** To be called when an answer is taken up. The next refusal does not count as `again`. */
   answered(): void {
     this.#isRefused = false;
