@@ -6,6 +6,7 @@ import { expect, test } from "vitest";
 import { oracleFor } from "../../www/compare/oracles.js";
 import { Projected, zBuffer } from "../../www/compare/zbuffer.js";
 import { make as makeRoom } from "../../www/samples/living-room.js";
+import { make as makeTile } from "../../www/samples/tile.js";
 import { grid, type Mesh } from "../../www/samples/generator.js";
 import { RayTracer } from "../fidelity/rays.js";
 import { errorsOf } from "../fidelity/score.js";
@@ -108,6 +109,30 @@ test("in the room the ceiling is seen, and no points lie under the rug or behind
   // The legs of the table on the rug have a few.
   expect(among((x, y, z) => y < 0.004 && x > -1.99 && x < 0.59 && z > -1.09 && z < 0.79)).toBeLessThan(20);
   expect(among((x, y, z) => x < -2.994 && y > 1.36 && y < 1.94 && z > -0.49 && z < 0.39)).toBe(0);
+});
+
+test("in the tile, the airplane sees what its beams met, and from the ground the houses hide what is behind them", async () => {
+  const tile = await oracleFor({ sample: "tile" }, new Float32Array());
+  const { positions, attributes } = makeTile();
+  expect(tile.count).toBe(positions.length / 3);
+  const [kinds, returns] = [attributes![1]!.values, attributes![2]!.values];
+  /** The share of every 5th point of these classes that a place sees, first returns only. */
+  const share = (at: readonly number[], ...like: number[]) => {
+    const sees = tile.from(at);
+    const tried = Array.from({ length: tile.count / 5 }, (_, i) => 5 * i).filter(
+      (i) => like.includes(kinds[i]!) && returns[i] === 1 && positions[3 * i]! < 512_160,
+    );
+    expect(tried.length).toBeGreaterThan(100);
+    return tried.filter(sees).length / tried.length;
+  };
+  // The flight line of the western strip.
+  const airplane = [512_070, 5_403_160, 1120];
+  expect(share(airplane, 2, 3, 11)).toBeGreaterThan(0.98);
+  expect(share(airplane, 6)).toBeGreaterThan(0.95);
+  expect(share(airplane, 5)).toBeGreaterThan(0.8);
+  // A man on the road.
+  expect(share([512_070, 5_403_160, 430], 2, 3)).toBeLessThan(0.8);
+  expect(share([512_070, 5_403_160, 430], 6)).toBeLessThan(0.5);
 });
 
 /** Opens the judgment. Returns the shares in its table, row by row. */

@@ -20,7 +20,7 @@ export interface Oracle {
  * A point is seen if the segment from it to the viewpoint meets no face but the point's own: the face that it lies on,
  * or the faces that it is a corner of.
  */
-export function meshOracle(mesh: Mesh, on: OnFaces | null = null): Oracle {
+export function meshOracle(mesh: Mesh, on: OnFaces | null = null, origin: readonly number[] = [0, 0, 0]): Oracle {
   const geometry = new BufferGeometry();
   geometry.setAttribute("position", new BufferAttribute(mesh.positions, 3));
   geometry.setIndex(new BufferAttribute(mesh.triangles, 1));
@@ -37,7 +37,7 @@ export function meshOracle(mesh: Mesh, on: OnFaces | null = null): Oracle {
   return {
     count: positions.length / 3,
     from(viewpoint) {
-      const target = new Vector3().fromArray(viewpoint);
+      const target = new Vector3().fromArray(viewpoint).sub(new Vector3().fromArray(origin));
       return (point) => {
         ray.origin.fromArray(positions, 3 * point);
         ray.direction.subVectors(target, ray.origin);
@@ -49,7 +49,7 @@ export function meshOracle(mesh: Mesh, on: OnFaces | null = null): Oracle {
   };
 }
 
-/** The truth about a cloud whose surface is known. Questions and answers are in the coordinates of `positions`. */
+/** The truth about a cloud whose surface is known: in the coordinates of `positions`, or in those of a sample's file. */
 export async function oracleFor(surface: KnownSurface, positions: Float32Array): Promise<Oracle> {
   if ("faces" in surface) return meshOracle({ positions, triangles: await facesAt(surface.faces) });
   const { truth } = await generatorOf(surface.sample);
@@ -65,7 +65,7 @@ async function facesAt(url: string): Promise<Uint32Array> {
 }
 
 function oracleOf(truth: Truth): Oracle {
-  return "mesh" in truth ? meshOracle(truth.mesh, truth.on) : sceneOracle(truth.scene, truth.places);
+  return "mesh" in truth ? meshOracle(truth.mesh, truth.on, truth.origin) : sceneOracle(truth.scene, truth.places);
 }
 
 /** The end of a ray is rounded. So the ray ends before its point, by this share of its length. */

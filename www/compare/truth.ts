@@ -26,12 +26,13 @@ export async function traced(
   signal: AbortSignal,
   onProgress: (share: number) => void = () => undefined,
 ): Promise<Uint8Array> {
-  // A mesh is traced in f32. Coordinates in f64, such as those of a map, are measured from the middle of the cloud.
-  const single = positions instanceof Float32Array;
+  // A mesh is traced in f32. Coordinates in f64, such as those of a map, are measured from the middle of the cloud. The
+  // truth of a generator knows its own.
+  const single = positions instanceof Float32Array || "sample" in surface;
   const question: TruthQuestion = {
     // The worker has another address than the page, so it needs an absolute address.
     surface: "faces" in surface ? { faces: new URL(surface.faces, document.baseURI).href } : surface,
-    positions: single ? positions : cloud.local,
+    positions: positions instanceof Float32Array ? positions : cloud.local,
     viewpoint: single ? at : (at.map((value, axis) => value - cloud.center[axis]!) as Viewpoint),
   };
   const worker = new Worker(new URL("./truth-worker.ts", import.meta.url), { type: "module" });

@@ -12,7 +12,10 @@ export interface Generator {
  * A surface, and for each point of the cloud its place on it. The points are the vertices of the mesh, or lie on its
  * faces, or lie on the solids of a scene. Rays can be traced in this scene.
  */
-export type Truth = { mesh: Mesh; on: OnFaces | null } | { scene: Solid<unknown>; places: Float64Array };
+export type Truth =
+  // `origin`: where the mesh has its zero, in the coordinates of the cloud.
+  | { mesh: Mesh; on: OnFaces | null; origin?: readonly number[] }
+  | { scene: Solid<unknown>; places: Float64Array };
 
 /** Points on a mesh that are not its vertices, each with the number of the face it lies on. */
 export interface OnFaces {

@@ -1,13 +1,19 @@
 import type { LoadedCloud } from "../cloud/cloud.ts";
-import { mulberry32 } from "./generator.ts";
+import { grid, joined, type Mesh, mulberry32, type Truth } from "./generator.ts";
+import type { Vector } from "./trace.ts";
 
 /** The place where a beam comes back: meters in the tile, the class as in LAS files, the brightness. */
-export interface Return {
+interface Return {
   x: number;
   y: number;
   z: number;
   kind: number;
   tone: number;
+  /** The house that it met, and whether it met a wall of it. */
+  house?: House;
+  wall?: boolean;
+  /** The lower end of the crown that it met, at this place. */
+  bottom?: number;
 }
 
 interface House {
@@ -36,7 +42,7 @@ const CELL = 10;
 const DOWN = 0.6;
 
 /** Hills, a stream, a road with houses along it, and trees, for beams from above. */
-export function makeLand(side: number, random: () => number) {
+function makeLand(side: number, random: () => number) {
   const houses: House[] = [];
   const trees: Tree[] = [];
   const isFree = (x: number, y: number, gap: number) =>
@@ -82,6 +88,7 @@ export function makeLand(side: number, random: () => number) {
   };
 
   return {
+    houses,
     /** The first return of a beam to (x, y) that goes `across` meters to the west for each meter down. */
     first(x: number, y: number, across: number): Return | null {
       const things = near(x, y);
@@ -100,7 +107,7 @@ export function makeLand(side: number, random: () => number) {
         // A beam meets a wall from the side, between the last step and this one. It meets a roof or the ground from
         // above.
         const wall = hit.kind === 6 && hit.z - z > 1.2;
-        return wall ? { ...hit, z: z + DOWN * random() } : hit;
+        return wall ? { ...hit, z: z + DOWN * random(), wall } : hit;
       }
       return groundAt(x, y);
     },
@@ -151,19 +158,29 @@ function house(x: number, y: number, turn: number, random: () => number): House 
   };
 }
 
-function roofAt(
-  { x: cx, y: cy, turn, halfLength, halfWidth, eaves, ridge, base, tone }: House,
-  x: number,
-  y: number,
-): Return | null {
+/** A place in the directions of a house: along its ridge, and across it. */
+function inHouse({ x: cx, y: cy, turn }: House, x: number, y: number): [along: number, across: number] {
   const [cos, sin] = [Math.cos(turn), Math.sin(turn)];
-  const along = (x - cx) * cos + (y - cy) * sin;
-  const across = (y - cy) * cos - (x - cx) * sin;
+  return [(x - cx) * cos + (y - cy) * sin, (y - cy) * cos - (x - cx) * sin];
+}
+
+function roofHeight({ base, ridge, eaves, halfWidth }: House, across: number): number {
+  return base + ridge - ((ridge - eaves) * Math.abs(across)) / halfWidth;
+}
+
+/** Half the width of a chimney, and its middle. */
+const CHIMNEY = 0.45;
+const chimneyOf = ({ halfLength }: House) => [0.5 * halfLength, 0.8] as const;
+
+function roofAt(house: House, x: number, y: number): Return | null {
+  const { turn, halfLength, halfWidth, ridge, base, tone } = house;
+  const [along, across] = inHouse(house, x, y);
   if (Math.abs(along) > halfLength || Math.abs(across) > halfWidth) return null;
-  const z = base + ridge - ((ridge - eaves) * Math.abs(across)) / halfWidth;
-  const chimney = Math.abs(along - 0.5 * halfLength) < 0.45 && Math.abs(across - 0.8) < 0.45;
+  const [a, b] = chimneyOf(house);
+  const chimney = Math.abs(along - a) < CHIMNEY && Math.abs(across - b) < CHIMNEY;
+  const z = chimney ? base + ridge + 1 : roofHeight(house, across);
   // One side of the roof lies in the sun.
-  return { x, y, z: chimney ? base + ridge + 1 : z, kind: 6, tone: tone * (across * cos < 0 ? 1.12 : 0.9) };
+  return { x, y, z, kind: 6, tone: tone * (across * Math.cos(turn) < 0 ? 1.12 : 0.9), house };
 }
 
 function crownAt({ x: cx, y: cy, radius, top, base }: Tree, x: number, y: number, random: () => number): Return | null {
@@ -171,7 +188,8 @@ function crownAt({ x: cx, y: cy, radius, top, base }: Tree, x: number, y: number
   if (off > 1 || random() < 0.12 + 0.3 * off) return null;
   const depth = (top - base) * 0.75;
   const z = top - depth * (0.5 - 0.5 * Math.sqrt(1 - off * off)) - 0.5 * random() * random() * depth;
-  return { x, y, z, kind: 5, tone: 0.75 + (0.5 * (z - base)) / (top - base) };
+  const bottom = top - depth * (0.5 + 0.5 * Math.sqrt(1 - off * off));
+  return { x, y, z, kind: 5, tone: 0.75 + (0.5 * (z - base)) / (top - base), bottom };
 }
 
 /** Finds the things near a place, with the cells of a grid. */
@@ -200,8 +218,8 @@ function cells<T extends { x: number; y: number }>(
  * on every machine.
  */
 
-const EAST = 512_000;
-const NORTH = 5_403_000;
+const SEED = 32632;
+const ORIGIN: Vector = [512_000, 5_403_000, 420];
 const SIDE = 320;
 /** The distance between two sweeps along the line of flight, and between two beams of a sweep. */
 const STEP = 0.66;
@@ -221,26 +239,15 @@ const LOOKS: Record<number, { color: readonly [number, number, number]; gloss: n
   11: { color: [140, 140, 142], gloss: 0.25 },
 };
 
-export function make(): LoadedCloud {
-  const random = mulberry32(32632);
-  const land = makeLand(SIDE, random);
-  const positions: number[] = [];
-  const colors: number[] = [];
-  const intensity: number[] = [];
-  const classification: number[] = [];
-  const returnNumber: number[] = [];
-
-  const put = ({ x, y, z, kind, tone }: Return, nth: number) => {
-    const scatter = NOISE * 1.7 * (random() + random() + random() + random() - 2);
-    [EAST + x, NORTH + y, 420 + z + scatter].forEach((value) => positions.push(Math.round(value * 1000) / 1000));
-    const { color, gloss } = LOOKS[kind]!;
-    const light = tone * (0.93 + 0.14 * random());
-    colors.push(...color.map((value) => Math.min(255, Math.round(value * light))));
-    intensity.push(Math.min(255, Math.round(255 * gloss * (nth === 1 ? 1 : 0.45) * (0.8 + 0.4 * random()))));
-    classification.push(kind);
-    returnNumber.push(nth);
-  };
-
+/** Every return with its number, and the chance in its height, its color and its brightness. */
+function* fly(land: ReturnType<typeof makeLand>, random: () => number) {
+  const chance = (at: Return, nth: number) => ({
+    at,
+    nth,
+    scatter: NOISE * 1.7 * (random() + random() + random() + random() - 2),
+    light: random(),
+    shine: random(),
+  });
   for (const line of LINES) {
     for (let y = 0; y < SIDE; y += STEP) {
       // Two neighboring strips meet halfway between their flight lines.
@@ -251,12 +258,37 @@ export function make(): LoadedCloud {
         const first = land.first(x, northing, across);
         // Water is a mirror: it sends hardly anything back to the airplane.
         if (!first || (first.kind === 9 && random() < 0.85)) continue;
-        put(first, 1);
+        yield chance(first, 1);
         if (first.kind !== 5 || random() > 0.4) continue;
         const second = land.below(first, across);
-        if (second) put(second, 2);
+        if (second) yield chance(second, 2);
       }
     }
+  }
+}
+
+/** The same land and the same flight each time. */
+function flown() {
+  const random = mulberry32(SEED);
+  const land = makeLand(SIDE, random);
+  return { houses: land.houses, returns: fly(land, random) };
+}
+
+export function make(): LoadedCloud {
+  const positions: number[] = [];
+  const colors: number[] = [];
+  const intensity: number[] = [];
+  const classification: number[] = [];
+  const returnNumber: number[] = [];
+  for (const { at, nth, scatter, light, shine } of flown().returns) {
+    const { x, y, z, kind, tone } = at;
+    const place = ORIGIN.map((from, axis) => from + [x, y, z + scatter][axis]!);
+    positions.push(...place.map((value) => Math.round(value * 1000) / 1000));
+    const { color, gloss } = LOOKS[kind]!;
+    colors.push(...color.map((value) => Math.min(255, Math.round(value * tone * (0.93 + 0.14 * light)))));
+    intensity.push(Math.min(255, Math.round(255 * gloss * (nth === 1 ? 1 : 0.45) * (0.8 + 0.4 * shine))));
+    classification.push(kind);
+    returnNumber.push(nth);
   }
   return {
     positions: Float64Array.from(positions),
@@ -271,4 +303,109 @@ export function make(): LoadedCloud {
       crs: { name: "UTM zone 32N", unit: { name: "m", meters: 1 }, heightUnit: null, isAngular: false },
     },
   };
+}
+
+/** How far a place stands before its surface, in meters, so that the surface does not hide it. */
+const BEFORE = 0.01;
+/** The place is no corner and no part of a face. */
+const NO_FACE = 0xffffffff;
+
+/**
+ * The ground in pieces of a meter, the houses, and leaves: triangles as wide as beams are apart, turned by chance. Each beam
+ * that came back from a tree met one. Below it the crown goes on, with a leaf at each step.
+ */
+export function truth(): Truth {
+  const { houses, returns } = flown();
+  const ground = grid(SIDE, SIDE, (u, v) => [SIDE * u, SIDE * v, groundAt(SIDE * u, SIDE * v).z]);
+  const built = joined([ground, ...houses.flatMap(housePieces)]);
+  const firstLeaf = built.triangles.length / 3;
+  const leaves: number[] = [];
+  const places: number[] = [];
+  const faces: number[] = [];
+  const random = mulberry32(SEED);
+  for (const { at } of returns) {
+    const { x, y, z, bottom } = at;
+    faces.push(bottom === undefined ? NO_FACE : firstLeaf + leaves.length / 9);
+    places.push(...(bottom === undefined ? placeOf(at) : [x, y, z]));
+    for (let height = z; height >= (bottom ?? Infinity); height -= STEP) leaves.push(...leafAt([x, y, height], random));
+  }
+  const corners = Uint32Array.from({ length: leaves.length / 3 }, (_, i) => i);
+  const leafMesh = { positions: Float32Array.from(leaves), triangles: corners };
+  return {
+    mesh: joined([built, leafMesh]),
+    on: { positions: Float32Array.from(places), faces: Uint32Array.from(faces) },
+    origin: ORIGIN,
+  };
+}
+
+/** The corners of a triangle around a place. */
+function leafAt(place: Vector, random: () => number): number[] {
+  const up = 2 * random() - 1;
+  const turn = 2 * Math.PI * random();
+  const level = Math.sqrt(1 - up * up);
+  const [cos, sin] = [Math.cos(turn), Math.sin(turn)];
+  // Two directions at right angles in its plane.
+  const [right, ahead] = [[-sin, cos, 0], [-up * cos, -up * sin, level]]; // prettier-ignore
+  return [0, 1, 2].flatMap((corner) => {
+    const angle = (2 * Math.PI * corner) / 3;
+    const reach = STEP / Math.sqrt(3);
+    return place.map(
+      (value, axis) => value + reach * (Math.cos(angle) * right![axis]! + Math.sin(angle) * ahead![axis]!),
+    );
+  });
+}
+
+/** Two sides of the roof, four walls and the chimney. */
+function housePieces(house: House): Mesh[] {
+  const { x, y, turn, halfLength: long, halfWidth: wide, base, eaves, ridge } = house;
+  const [cos, sin] = [Math.cos(turn), Math.sin(turn)];
+  const piece = (at: (u: number, v: number) => Vector) =>
+    grid(1, 1, (u, v) => {
+      const [a, b, z] = at(u, v);
+      return [x + a * cos - b * sin, y + a * sin + b * cos, z];
+    });
+  // Walls begin below the ground, which is not level.
+  const [foot, top] = [base - 3, base + ridge + 1];
+  const [a, b] = chimneyOf(house);
+  return [
+    ...[-1, 1].flatMap((side) => [
+      piece((u, v) => [long * (2 * u - 1), side * wide * v, roofHeight(house, wide * v)]),
+      piece((u, v) => [long * (2 * u - 1), side * wide, foot + v * (base + eaves - foot)]),
+      ...[-1, 1].map((end) =>
+        piece((u, v) => [end * long, side * wide * u, foot + v * (roofHeight(house, wide * u) - foot)]),
+      ),
+      piece((u, v) => [a + CHIMNEY * (2 * u - 1), b + side * CHIMNEY, base + eaves + v * (top - base - eaves)]),
+      piece((u, v) => [a + side * CHIMNEY, b + CHIMNEY * (2 * u - 1), base + eaves + v * (top - base - eaves)]),
+    ]),
+    piece((u, v) => [a + CHIMNEY * (2 * u - 1), b + CHIMNEY * (2 * v - 1), top]),
+  ];
+}
+
+/** The place just before the pieces of the ground or of a house for a point that came back from it. */
+function placeOf({ x, y, z, house, wall }: Return): Vector {
+  if (!house) return [x, y, groundPiece(x, y) + BEFORE];
+  if (!wall) return [x, y, z + BEFORE];
+  // The nearest wall, or the nearest side of the chimney.
+  const [along, across] = inHouse(house, x, y);
+  const [a, b] = chimneyOf(house);
+  const isChimney = z > roofHeight(house, across);
+  const [middle, half] = isChimney ? [[a, b], [CHIMNEY, CHIMNEY]] : [[0, 0], [house.halfLength, house.halfWidth]]; // prettier-ignore
+  const off = [along - middle[0]!, across - middle[1]!];
+  const axis = half[0]! - Math.abs(off[0]!) < half[1]! - Math.abs(off[1]!) ? 0 : 1;
+  off[axis] = Math.sign(off[axis]!) * (half[axis]! + BEFORE);
+  const [from, aside] = [middle[0]! + off[0]!, middle[1]! + off[1]!];
+  const [cos, sin] = [Math.cos(house.turn), Math.sin(house.turn)];
+  return [house.x + from * cos - aside * sin, house.y + from * sin + aside * cos, z];
+}
+
+/** The height of the flat pieces of the ground. */
+function groundPiece(x: number, y: number): number {
+  const [column, row] = [x, y].map((value) => Math.max(0, Math.min(SIDE - 1, Math.floor(value)))) as [number, number];
+  const [right, up] = [x - column, y - row];
+  const corner = (across: number, above: number) => groundAt(column + across, row + above).z;
+  const isLower = right + up <= 1;
+  const [from, a, b] = isLower
+    ? [corner(0, 0), corner(1, 0), corner(0, 1)]
+    : [corner(1, 1), corner(0, 1), corner(1, 0)];
+  return from + (isLower ? right : 1 - right) * (a - from) + (isLower ? up : 1 - up) * (b - from);
 }
