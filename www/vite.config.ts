@@ -1,6 +1,7 @@
 import { fileURLToPath } from "node:url";
 import { defineConfig } from "vite";
 import { ahead, COMMON, policy } from "./build/page-plugins.ts";
+import { docs } from "./build/docs-plugin.ts";
 import { underExamples } from "./build/examples-plugin.ts";
 import { html } from "./build/html-plugin.ts";
 import { samples } from "./build/samples-plugin.ts";
@@ -11,5 +12,5 @@ export default defineConfig({
   ...COMMON,
   root: here("."),
   build: { outDir: here("dist"), emptyOutDir: true, target: "es2022", chunkSizeWarningLimit: 900 },
-  plugins: [samples(), html(), ahead(), policy(), underExamples(here("examples.vite.config.ts"))],
+  plugins: [samples(), html(), ahead(), policy(), docs(), underExamples(here("examples.vite.config.ts"))],
 });

@@ -149,7 +149,7 @@ export async function buildPackage(): Promise<void> {
 async function buildDemo(): Promise<void> {
   const work = {
     name: "demo",
-    inputs: ["www", "examples", "dist", "package.json", "package-lock.json", "THIRD_PARTY.md", "docs/page.webp"],
+    inputs: ["www", "examples", "dist", "package.json", "package-lock.json", "THIRD_PARTY.md", "README.md", "docs"],
     ignore: ["www/dist", "www/public/samples"],
     outputs: ["www/dist/index.html", "www/dist/hidden-point-cloud.js", "www/dist/hidden-point-cloud.d.ts"],
   };

@@ -52,7 +52,7 @@ test("a stranger sees the cloud turn, a line sweep over it, a caption with its n
     )
     .toBe(true);
   expect((await status(page)).total).toBe(300_000);
-  expect(await controls(page)).toBeLessThanOrEqual(16);
+  expect(await controls(page)).toBeLessThanOrEqual(19);
   expect(await page.locator("#panel").evaluate((panel) => panel.getBoundingClientRect().width)).toBeLessThan(2);
   // It goes on turning, and maps draw it.
   const before = await status(page);
@@ -187,6 +187,8 @@ test("at every size the page says in one sentence what it is for whom, and the p
       expect(isApart, `${width} × ${height}: ${await words.textContent()}`).toBe(true);
     }
   }
+  const [told] = await page.locator("[data-verdict]").allInnerTexts();
+  expect(told).toMatch(/^Room: \d\.\d % wrong; a z-buffer \d+\.\d %$/);
   expect(await page.locator("#name").innerText()).toMatch(/^Hidden-point removal finds which points of a scan/);
 });
 

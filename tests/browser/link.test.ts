@@ -1,7 +1,7 @@
 // Marks and stations in the address.
 import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
-import { addressWritten, openPage, openReady, served, site, upToDate } from "./support.js";
+import { addressWritten, drag, openPage, openReady, PHONE, served, site, upToDate } from "./support.js";
 
 const tool = (page: Page, name: string) => page.locator("#tool-bar").getByRole("button", { name });
 
@@ -56,12 +56,25 @@ test("a link has the distances, labels and stations, and opens with them", async
   expect([...(await addressWritten(page)).keys()]).toEqual(["sample"]);
 });
 
-test("the code for another page shows the present view: its element has the same answer", async () => {
-  const page = await openReady("?sample=bunny&view=1,8,-12&target=0,5,0&fov=30&size=1.4&exponent=2");
+test("the code for another page shows the present view: the package and the element have the same answer", async () => {
+  const page = await openReady("?sample=bunny&view=1,8,-12&target=0,5,0&fov=30&size=1.4&exponent=2", {
+    permissions: ["clipboard-read", "clipboard-write"],
+  });
   const { visible, viewpoint } = await upToDate(page);
   await tool(page, "Export").click();
-  await page.locator("#copy-element").click();
-  const code = (await page.locator("#export-result").textContent())!.replace("Copied: ", "");
+  await page.locator("#export-card .use").click();
+  const copied = async (name: string) => {
+    await page.getByRole("button", { name: `Copy ${name}` }).click();
+    await page.locator("#use output", { hasText: "Copied." }).waitFor();
+    return page.evaluate(() => navigator.clipboard.readText());
+  };
+  const [, from, options] = /visibleFrom\((\[.*?\]), \{ (.*) \}\);$/.exec(await copied("npm package"))!;
+  expect(JSON.parse(from!)).toEqual(viewpoint);
+  expect(options).toBe("exponent: 2");
+  const three = await copied("three.js");
+  expect(three).toContain(`camera.position.set(${viewpoint.join(", ")});\ncamera.lookAt(0, 5, 0);`);
+  expect(three).toContain("new HiddenPointFilter(points, { exponent: 2 });");
+  const code = await copied("HTML element");
   const [script, element] = code.split("\n");
   expect(script).toBe(`<script type="module" src="${site.address}hidden-point-cloud.js"></script>`);
   served.set("other.html", new TextEncoder().encode(`<!doctype html>${code}`));
@@ -79,6 +92,23 @@ test("the code for another page shows the present view: its element has the same
   expect(shown, element).toEqual({ visible, viewpoint });
 });
 
+test("on a phone with the tools open, the address opens exactly the same picture", async () => {
+  const page = await openReady("?sample=bunny&measure=5,1000", PHONE);
+  await drag(page, 40, 30);
+  const end = (opened: Page) =>
+    opened
+      .locator("#marks .measure .dot")
+      .first()
+      .evaluate((dot) => {
+        const { x, y } = dot.getBoundingClientRect();
+        return [x, y].map(Math.round);
+      });
+  const query = await addressWritten(page);
+  const again = await openReady(`?${query.toString()}`, PHONE);
+  await again.locator("#marks .measure .dot").first().waitFor({ state: "attached" });
+  await expect.poll(() => end(again)).toEqual(await end(page));
+});
+
 test("marks that do not suit the cloud are left out, and a sentence says so", async () => {
   const page = await openReady("?sample=bunny&measure=1,2&measure=1,9999&label=5,Nose&label=x,Y&station=1,2,North");
   await expect.poll(() => page.locator("#message p").textContent()).toMatch(/^Some marks or stations in the address/);
@@ -89,7 +119,7 @@ test("marks that do not suit the cloud are left out, and a sentence says so", as
 test("the marks of a file that cannot be opened do not go to the sample that replaces it", async () => {
   served.set("clouds/empty.xyz", new Uint8Array());
   const page = await openPage("?src=clouds/empty.xyz&measure=1,2");
-  await page.locator("#tools:not([hidden])").waitFor();
+  await page.locator("#tools:not([inert])").waitFor();
   await upToDate(page);
   expect((await marks(page)).measures).toEqual([]);
 });

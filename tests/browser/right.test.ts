@@ -163,6 +163,19 @@ test("How right is it? has the errors of one hull and of looks against rays", as
   expect(await page.locator("#right canvas").count()).toBe(3);
 });
 
+test("the first screen says how right its picture is, as How right is it? does", async () => {
+  const page = await openReady("?turn=0", { viewport: { width: 1280, height: 720 }, deviceScaleFactor: 1 }, (opened) =>
+    opened.addInitScript(() => {
+      localStorage.removeItem("hidden-point-removal: tools");
+    }),
+  );
+  const [wrong, buffered] = (await page.locator("[data-verdict]").innerText()).match(/[\d.]+/g)!.map(Number);
+  const [first, , looks] = await judged(page);
+  // The bar moves the picture up, so a few other points are in it.
+  expect(wrong).toBeCloseTo(looks![2]!, 1);
+  expect(Math.abs(buffered! - first![2]!)).toBeLessThan(0.3);
+});
+
 test("a scan's own points judge from their stations, where no surface is known", async () => {
   const page = await openReady("?sample=bunny");
   const fixture = join(import.meta.dirname, "fixtures/two-scans.e57");

@@ -4,7 +4,7 @@ import { make as makeRoom } from "../../www/samples/living-room.js";
 import { make as makeStreet } from "../../www/samples/street.js";
 import { TOLD } from "../../www/stories/stories.js";
 import { asciiPly, ball } from "./clouds.js";
-import { addressWritten, inNode, openPage, openReady, PHONE, provoke, upToDate } from "./support.js";
+import { addressWritten, drag, inNode, openPage, openReady, PHONE, provoke, settled, upToDate } from "./support.js";
 
 type Pair = [number, number];
 
@@ -104,6 +104,46 @@ test("survey: the number is the package's; it goes on by itself until it is touc
     .setInputFiles({ name: "own.ply", mimeType: "", buffer: Buffer.from(asciiPly(ball(300))) });
   await page.locator('#status[data-total="300"]').waitFor({ state: "attached" });
   expect(await page.locator("#story").count()).toBe(0);
+});
+
+test("a story says no number before its answer, and its end and the browser's Back come back to the file and the view before it", async () => {
+  const page = await openReady("?sample=bunny");
+  await page
+    .locator("#file")
+    .setInputFiles({ name: "own.ply", mimeType: "", buffer: Buffer.from(asciiPly(ball(300))) });
+  await page.locator('#status[data-total="300"]').waitFor({ state: "attached" });
+  await drag(page, 40, 20);
+  const { viewpoint } = await settled(page);
+  // Everything that the story says.
+  await page.evaluate(() => {
+    const heard: string[] = ((globalThis as { heard?: string[] }).heard = []);
+    new MutationObserver(() => {
+      const says = document.querySelector("#story p")?.textContent;
+      if (says && says !== heard.at(-1)) heard.push(says);
+    }).observe(document.getElementById("stage")!, { childList: true, subtree: true, characterData: true });
+  });
+  const begin = () =>
+    page.evaluate(() => {
+      document.querySelector<HTMLElement>('[data-story="measure"]')!.click();
+    });
+  for (const leave of ["Back", "End"] as const) {
+    await begin();
+    await told(page, "measure", 0);
+    if (leave === "Back") {
+      await page.getByRole("button", { name: "Next" }).click();
+      await told(page, "measure", 1);
+      const heard = await page.evaluate(() => (globalThis as { heard?: string[] }).heard!);
+      // Each step is said with a gap, and then once with its number.
+      expect(heard.map((says) => says.includes("…"))).toEqual([true, false, true, false]);
+      await page.goBack();
+    } else {
+      await page.getByRole("button", { name: "End" }).click();
+    }
+    await page.locator('#status[data-total="300"]').waitFor({ state: "attached" });
+    expect(await page.locator("#story").count()).toBe(0);
+    expect((await settled(page)).viewpoint).toEqual(viewpoint);
+    expect(new URL(page.url()).search).toBe("");
+  }
 });
 
 test("a story that does not exist is named", async () => {

@@ -1,4 +1,5 @@
-import type { Plugin } from "vite";
+import { fileURLToPath } from "node:url";
+import { type Plugin, runnerImport } from "vite";
 import { type Action, type Key, KEYS, SHEET, shownKeys, spokenKeys } from "../controls/keys.ts";
 import { FORMATS, listed, OTHER_ENDINGS, type Slider, SLIDERS } from "../settings/limits.ts";
 import { type Setting, type SettingName, SETTINGS } from "../settings/table.ts";
@@ -12,11 +13,19 @@ import { LABELS } from "../settings/settings.ts";
  *     <button data-key="action" title="">  its key, in the title and for screen readers
  *     <dl data-keys>                       the sheet of keys
  *     {{name}}                             a text of TEXTS
+ *     <span data-verdict>                  how right the first picture is; each build asks again
  */
 export function html(): Plugin {
   return {
     name: "html",
-    transformIndexHtml: { order: "pre", handler: filled },
+    transformIndexHtml: {
+      order: "pre",
+      handler: async (page) => {
+        const file = fileURLToPath(new URL("verdict.ts", import.meta.url));
+        const { module } = await runnerImport<typeof import("./verdict.ts")>(file);
+        return filled(page).replace("<span data-verdict>", (tag) => tag + module.verdict);
+      },
+    },
   };
 }
 

@@ -6,7 +6,7 @@ import { methodOf } from "../view/inquiry.ts";
 import { measuredBy } from "../open/wishes.ts";
 import type { Settings, Store } from "../settings/settings.ts";
 import type { Opened, Viewer } from "../view/viewer.ts";
-import { button, make, numberField } from "../tools/make.ts";
+import { make, numberField, openDialog } from "../tools/make.ts";
 
 /** Shows problems. An error is shown in the status and the message. A note about an answer is in the message alone. */
 export class Notices {
@@ -123,16 +123,8 @@ export function chooseColumns(at: readonly number[], choose: (columns: [string, 
     "form",
     { method: "dialog" },
     ...fields.map(({ row }) => row),
-    make("div", { class: "buttons" }, make("button", {}, "Open with these"), button("Close", close)),
+    make("button", {}, "Open with these"),
   );
-  const title = make("h2", { id: "columns-title" }, "Which columns are x, y and z?");
-  const dialog = make("dialog", { id: "columns", "aria-labelledby": "columns-title" }, title, form);
   form.addEventListener("submit", () => choose(fields.map(({ input }) => input.value) as [string, string, string]));
-  dialog.addEventListener("close", () => dialog.remove());
-  document.body.append(dialog);
-  dialog.showModal();
-
-  function close(): void {
-    dialog.close();
-  }
+  openDialog("columns", "Which columns are x, y and z?", form);
 }

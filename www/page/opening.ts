@@ -42,6 +42,7 @@ export class Opening {
   #loading = new AbortController();
   /** The cloud that is being loaded. */
   #source: Source | null = null;
+  #shown: Source | null = null;
 
   /** `usual`: the sample that replaces a first cloud that cannot be opened. */
   constructor(parts: Parts, usual: Sample) {
@@ -52,6 +53,11 @@ export class Opening {
       if (source.name) parts.address.choose(source.name);
       void this.open(source);
     });
+  }
+
+  /** The cloud on screen. */
+  get source(): Source | null {
+    return this.#shown;
   }
 
   /** Gives up a cloud that is being loaded, and loads this one. */
@@ -141,6 +147,7 @@ export class Opening {
     workshop.clear();
     viewer.show(ready.opened);
     this.shownName = sample?.name ?? request.name;
+    this.#shown = source;
     workshop.begin(source.marks ?? null).then(
       (said) => {
         if (said !== null) message.show(said);

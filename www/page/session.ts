@@ -10,6 +10,7 @@ import { Address, type CameraPlace } from "../settings/address.ts";
 import type { Wishes } from "../settings/read-address.ts";
 import { Store, USUAL_SETTINGS } from "../settings/settings.ts";
 import type { StoryName } from "../settings/table.ts";
+import type { ExportActions } from "../tools/export.ts";
 import { Workshop } from "../tools/workshop.ts";
 import type { AskedView } from "../view/framing.ts";
 import { canDraw } from "../view/theme.ts";
@@ -102,7 +103,7 @@ export async function startSession(wishes: Wishes, first: Source): Promise<void>
     open: (files, notes) => void opening.open(fromFiles(files, notes, limitsOf(wishes))),
     refuse: (sentence) => message.show(sentence),
   });
-  bindLessons(viewer, store, storytelling, message);
+  bindLessons(viewer, store, storytelling, message, actions);
   const opened = wishes.story ? storytelling.tell(wishes.story) : opening.open(first);
   await opened;
   if (!wishes.story) void introduction.begin(wishes.turns);
@@ -118,8 +119,14 @@ function coveredHeight(): number {
   return Math.max(0, ...heights);
 }
 
-/** The lesson, the judgment and the stories. Each is downloaded when it is asked for. */
-function bindLessons(viewer: Viewer, store: Store, storytelling: Storytelling, message: Message): void {
+/** The lesson, the judgment, the code and the stories. Each is downloaded when it is asked for. */
+function bindLessons(
+  viewer: Viewer,
+  store: Store,
+  storytelling: Storytelling,
+  message: Message,
+  { name, link }: ExportActions,
+): void {
   let isComing = false;
   const bind = (selector: string, what: string, show: (button: HTMLElement) => Promise<void>) => {
     for (const button of document.querySelectorAll<HTMLElement>(selector)) {
@@ -138,6 +145,9 @@ function bindLessons(viewer: Viewer, store: Store, storytelling: Storytelling, m
   });
   bind(".right", "The judgment", async () => {
     if (viewer.cloud) await (await import("../right/right.ts")).showRight(viewer);
+  });
+  bind(".use", "The code", async () => {
+    if (viewer.cloud) (await import("../tools/use.ts")).showUse(viewer, store, name(), link());
   });
   bind("[data-story]", "The story", (button) => storytelling.tell(button.dataset["story"] as StoryName));
 }

@@ -9,9 +9,10 @@ import type { Workshop } from "../tools/workshop.ts";
 import { inLocal } from "../view/framing.ts";
 import type { Viewer } from "../view/viewer.ts";
 import type { Opening } from "./opening.ts";
-import { sourceOf } from "./sources.ts";
+import { type Source, sourceOf } from "./sources.ts";
 import { sweep } from "./introduction.ts";
 
+const SAMPLE_NAMES = SAMPLES.map(({ name }) => name);
 /** Milliseconds in which the camera flies to the next step. */
 const FLIGHT = 1500;
 /** The field of view of a picture that is higher than wide: else the ends of a tape are out of it. */
@@ -25,18 +26,32 @@ interface Parts {
   opening: Opening;
 }
 
-/** Tells stories with the picture and the tools of the page. Their code is downloaded when the first one begins. */
+/**
+ * Tells stories with the picture and the tools of the page. Their code is downloaded when the first one begins. A story is
+ * an entry in the browser's history: its end goes back to the cloud that was open before.
+ */
 export class Storytelling {
   readonly #parts: Parts;
   #player: Player | null = null;
   #isTelling = false;
+  /** What was open before the story. `null`: the page began with the story, or another cloud has been opened. */
+  #before: (() => Source) | null = null;
 
   constructor(parts: Parts) {
     this.#parts = parts;
     // Another cloud ends the story.
     parts.opening.onOpen = ({ isTold }) => {
-      if (!isTold) this.#player?.end();
+      if (isTold) return;
+      this.#before = null;
+      this.#player?.end();
     };
+    addEventListener("popstate", () => {
+      const before = this.#before;
+      const { story } = readAddress(location.search, SAMPLE_NAMES);
+      this.#player?.end();
+      if (story) void this.tell(story);
+      else if (before) void parts.opening.open(before());
+    });
   }
 
   /** Whether the page shows what a story asks for. */
@@ -46,9 +61,21 @@ export class Storytelling {
 
   async tell(name: StoryName): Promise<void> {
     const [{ Player }, { TOLD }] = await Promise.all([import("../stories/player.ts"), import("../stories/stories.ts")]);
+    const { opening, viewer, store, address } = this.#parts;
     this.#player?.end();
+    const { source } = opening;
+    if (source && viewer.cloud) {
+      address.link();
+      const { search } = location;
+      const view = viewer.isHome ? source.view : { at: viewer.viewpoint, target: viewer.target };
+      const settings = store.current;
+      this.#before = () => {
+        const again = source.name ? sourceOf(readAddress(search, SAMPLE_NAMES), search) : { ...source, view };
+        return { ...again, settings, notes: [] };
+      };
+    }
     this.#isTelling = true;
-    this.#parts.address.tell(name);
+    address.tell(name, this.#before !== null);
     const lens = this.#parts.viewer.stage.shape.aspect < 1 ? NARROW : "";
     const player = (this.#player = new Player(TOLD[name], {
       show: (address, signal) => this.#show(`?sample=${STORIES[name]}&${address}${lens}`, signal),
@@ -57,8 +84,10 @@ export class Storytelling {
         if (this.#player !== player) return;
         this.#player = null;
         this.#isTelling = false;
-        this.#parts.address.touch();
+        address.touch();
         byId("view").focus();
+        if (this.#before && new URLSearchParams(location.search).has("story")) history.back();
+        else this.#before = null;
       },
     }));
     player.begin(byId("stage"));
@@ -67,14 +96,13 @@ export class Storytelling {
   async #show(search: string, signal: AbortSignal): Promise<void> {
     const { viewer, store, opening, workshop } = this.#parts;
     const goes = () => !signal.aborted;
-    const wishes = readAddress(
-      search,
-      SAMPLES.map(({ name }) => name),
-    );
+    const wishes = readAddress(search, SAMPLE_NAMES);
     if (opening.shownName !== wishes.sample || !viewer.cloud) {
       await opening.open({ ...sourceOf(wishes, search), isTold: true });
       // The page has said why it could not be opened.
-      if (opening.shownName !== wishes.sample && goes()) this.#player?.end();
+      if (opening.shownName === wishes.sample || !goes()) return;
+      this.#before = null;
+      this.#player?.end();
     } else {
       const { theme, compare } = store.current;
       const to = { ...USUAL_SETTINGS, ...opening.usual, theme, ...wishes.settings };

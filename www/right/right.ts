@@ -7,7 +7,7 @@ import type { KnownSurface } from "../samples/samples.ts";
 import { USUAL_SETTINGS, type Viewpoint } from "../settings/settings.ts";
 import { type Measured, measuredBy } from "../open/wishes.ts";
 import type { Viewer } from "../view/viewer.ts";
-import { button, make, tableRow } from "../tools/make.ts";
+import { make, openDialog, tableRow } from "../tools/make.ts";
 import { THEMES } from "../view/theme.ts";
 
 /** What one method says about the points in the picture, beside the truth. */
@@ -149,25 +149,8 @@ const EDGE = 8;
 export async function showRight(viewer: Viewer): Promise<void> {
   const closing = new AbortController();
   const body = make("div", {});
-  const dialog = make(
-    "dialog",
-    { id: "right", tabindex: "-1", "aria-labelledby": "right-title" },
-    make("h2", { id: "right-title" }, "How right is it?"),
-    body,
-    button("Close", () => dialog.close()),
-  );
-  dialog.addEventListener("close", () => {
-    closing.abort();
-    dialog.remove();
-  });
-  // A click beside it is a click on the dialog itself.
-  dialog.addEventListener("click", (event) => {
-    if (event.target === dialog) dialog.close();
-  });
-  document.body.append(dialog);
-  dialog.showModal();
-  dialog.focus();
-
+  const dialog = openDialog("right", "How right is it?", body);
+  dialog.addEventListener("close", () => closing.abort());
   const { surface } = viewer.scene;
   const stations = judges(viewer);
   if (!surface && stations.length === 0) {

@@ -14,8 +14,7 @@ export interface Generator {
  */
 export type Truth =
   // `origin`: where the mesh has its zero, in the coordinates of the cloud.
-  | { mesh: Mesh; on: OnFaces | null; origin?: readonly number[] }
-  | { scene: Solid<unknown>; places: Float64Array };
+  { mesh: Mesh; on: OnFaces | null; origin?: readonly number[] } | { scene: Solid<unknown>; places: Float64Array };
 
 /** Points on a mesh that are not its vertices, each with the number of the face it lies on. */
 export interface OnFaces {

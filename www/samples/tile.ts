@@ -345,12 +345,13 @@ function leafAt(place: Vector, random: () => number): number[] {
   const level = Math.sqrt(1 - up * up);
   const [cos, sin] = [Math.cos(turn), Math.sin(turn)];
   // Two directions at right angles in its plane.
-  const [right, ahead] = [[-sin, cos, 0], [-up * cos, -up * sin, level]]; // prettier-ignore
+  const right = [-sin, cos, 0];
+  const ahead = [-up * cos, -up * sin, level];
   return [0, 1, 2].flatMap((corner) => {
     const angle = (2 * Math.PI * corner) / 3;
     const reach = STEP / Math.sqrt(3);
     return place.map(
-      (value, axis) => value + reach * (Math.cos(angle) * right![axis]! + Math.sin(angle) * ahead![axis]!),
+      (value, axis) => value + reach * (Math.cos(angle) * right[axis]! + Math.sin(angle) * ahead[axis]!),
     );
   });
 }

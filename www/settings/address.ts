@@ -74,11 +74,12 @@ export class Address {
     replace(address);
   }
 
-  /** Writes the name of a story, and nothing else. It stays while the story is told. */
-  tell(story: string): void {
-    const address = new URL(location.href);
-    address.search = new URLSearchParams({ story }).toString();
-    replace(address);
+  /** Writes the name of a story, and nothing else. It stays while the story is told. `leaves`: the browser can go back. */
+  tell(story: string, leaves: boolean): void {
+    const { href } = new URL(`?${new URLSearchParams({ story }).toString()}`, location.href);
+    if (href === location.href) return;
+    if (leaves) history.pushState(null, "", href);
+    else history.replaceState(null, "", href);
   }
 
   /** Brings the address of the cloud before back, because the chosen cloud could not be opened. */

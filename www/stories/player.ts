@@ -76,10 +76,11 @@ export class Player {
     this.#back.disabled = to === 0;
     this.#next.textContent = to === steps.length - 1 ? "Again" : "Next";
     delete this.#box.dataset["waits"];
-    this.#say(step);
+    // The figures of the step before are not those of this one.
+    this.#say(step, () => null);
     const isHere = () => !signal.aborted;
     await this.#stage.show(step.address, signal);
-    while (isHere() && !this.#say(step)) await nextFrame();
+    while (isHere() && !this.#say(step, this.#stage.figure)) await nextFrame();
     const goesOn = () => isHere() && this.#goesOn && to < steps.length - 1;
     if (!goesOn()) return;
     this.#box.dataset["waits"] = "";
@@ -88,10 +89,10 @@ export class Player {
   }
 
   /** Says the sentence of a step. Returns whether all of its figures are known. */
-  #say({ says }: Step): boolean {
+  #say({ says }: Step, figure: Stage["figure"]): boolean {
     let isWhole = true;
     const sentence = says.replace(/\{(\w+)\}/g, (_, name: Figure) => {
-      const value = this.#stage.figure(name);
+      const value = figure(name);
       isWhole &&= value !== null;
       return value === null ? "…" : WRITTEN[name].format(value);
     });

@@ -101,7 +101,6 @@ export class Export implements Tool {
     this.#bind("export-csv", "csv", () => this.#csv());
     this.#bind("export-png", "png", async () => [await pictureWithMarks(bench.viewer.stage, bench.marks.svg)]);
     byId("copy-link").addEventListener("click", () => void this.#copyLink());
-    byId("copy-element").addEventListener("click", () => void this.#copyElement());
   }
 
   open(): void {
@@ -166,25 +165,12 @@ export class Export implements Tool {
     yield "\n";
   }
 
-  /** The address of the picture. If it has none, says so. */
-  #link(): string | null {
+  async #copyLink(): Promise<void> {
     const link = this.#actions.link();
     if (link === null) {
       this.#output.textContent = "No link can open this cloud: it is a file on your device, or still being loaded.";
+      return;
     }
-    return link;
-  }
-
-  async #copyElement(): Promise<void> {
-    const link = this.#link();
-    if (link === null) return;
-    const code = elementOf(link);
-    this.#output.textContent = (await copy(code)) ? `Copied: ${code}` : code;
-  }
-
-  async #copyLink(): Promise<void> {
-    const link = this.#link();
-    if (link === null) return;
     const copied = await copy(link);
     const said = copied
       ? "The link is copied."
@@ -193,38 +179,6 @@ export class Export implements Tool {
     this.#output.textContent =
       left.length === 0 ? said : `${said} Not in it, because an address would be too long: ${left.join(", ")}.`;
   }
-}
-
-/** The attributes of the element `<hidden-point-cloud>`, by their parameters in the address. */
-const ATTRIBUTES: Readonly<Record<string, string>> = {
-  sample: "sample",
-  src: "src",
-  points: "limit",
-  view: "viewpoint",
-  target: "target",
-  size: "point-size",
-  fov: "fov",
-  up: "up",
-  color: "color",
-  hidden: "hidden-points",
-  looks: "looks",
-  exponent: "exponent",
-  radius: "radius",
-  inversion: "inversion",
-};
-
-/** The lines of a page that show what a link of this page shows. */
-function elementOf(link: string): string {
-  const { searchParams } = new URL(link);
-  const escaped = (text: string) => text.replaceAll("&", "&amp;").replaceAll('"', "&quot;").replaceAll("<", "&lt;");
-  const attributes = Object.entries(ATTRIBUTES).flatMap(([parameter, name]) => {
-    const value = searchParams.get(parameter);
-    if (value === null) return [];
-    // In another page, an address must be a whole one.
-    return ` ${name}="${escaped(parameter === "src" ? new URL(value, document.baseURI).href : value)}"`;
-  });
-  const module = new URL("hidden-point-cloud.js", document.baseURI).href;
-  return `<script type="module" src="${escaped(module)}"></script>\n<hidden-point-cloud${attributes.join("")}></hidden-point-cloud>`;
 }
 
 /** Yields a list as text, in pieces. */

@@ -27,6 +27,27 @@ export function button(
   return element;
 }
 
+/** Opens a dialog with a heading, its content and a button that closes it. It is removed when it is closed. */
+export function openDialog(id: string, title: string, ...content: (Node | string)[]): HTMLDialogElement {
+  const dialog = make(
+    "dialog",
+    { id, tabindex: "-1", "aria-labelledby": `${id}-title` },
+    make("h2", { id: `${id}-title` }, title),
+    ...content,
+    button("Close", () => dialog.close()),
+  );
+  dialog.addEventListener("close", () => dialog.remove());
+  // A click beside it is a click on the dialog itself.
+  dialog.addEventListener("click", (event) => {
+    if (event.target === dialog) dialog.close();
+  });
+  document.body.append(dialog);
+  dialog.showModal();
+  // It is read and scrolled from its beginning.
+  dialog.focus();
+  return dialog;
+}
+
 /** A number with its label. */
 export function numberField(id: string, text: string): { row: HTMLElement; input: HTMLInputElement } {
   const input = make("input", { id, type: "number", step: "any" });

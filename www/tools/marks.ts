@@ -100,7 +100,7 @@ export class Marks {
   place(): void {
     if (this.#all.size + this.#pins.size === 0 || !this.#viewer.cloud) return;
     const { camera, size } = this.#viewer.stage;
-    const now = [camera.matrixWorld.elements, camera.projectionMatrix.elements[5], size.width, size.height].join();
+    const now = [camera.matrixWorld.elements, camera.projectionMatrix.elements, size.width, size.height].join();
     if (now === this.#placed) return;
     this.#placed = now;
     const { cloud, visible } = this.#viewer.scene;

@@ -1,4 +1,3 @@
-import "../styles/tools.css";
 import "../styles/tool-card.css";
 import "../styles/divider.css";
 import { Vector3 } from "three";
@@ -73,7 +72,7 @@ export class Tools {
     this.#information = new Information(bench);
     this.#scaleBar = new ScaleBar(this.#marks.svg, viewer);
     bindKeysSheet();
-    byId("tools").hidden = false;
+    byId("tools").inert = false;
     this.#bindKeys(viewer);
   }
 
