@@ -5,8 +5,9 @@ import inspect
 import json
 import pydoc
 import re
-from typing import get_type_hints
+import sys
 from pathlib import Path
+from typing import get_type_hints
 
 import pytest
 
@@ -102,6 +103,24 @@ def test_the_stub_names_what_there_is():
 def test_the_version_is_that_of_the_package():
     package = Path(__file__).parents[1] / "pyproject.toml"
     assert f'version = "{hpr.__version__}"' in package.read_text()
+
+
+def imported(statements):
+    """What a module imports as soon as it is imported itself."""
+    for node in statements:
+        if isinstance(node, ast.Import):
+            yield from (name.name for name in node.names)
+        elif isinstance(node, ast.ImportFrom) and node.level == 0:
+            yield node.module
+        elif isinstance(node, ast.If) and getattr(node.test, "id", "") != "TYPE_CHECKING":
+            yield from imported([*node.body, *node.orelse])
+
+
+def test_what_is_imported_is_installed_with_the_package():
+    """On each Python: 3.10 has no typing.Unpack."""
+    found = {name.split(".")[0] for file in Path(hpr.__file__).parent.glob("*.py") for name in imported(ast.parse(file.read_text()).body)}
+    needed = re.search(r"^dependencies = (.*)$", (Path(__file__).parents[1] / "pyproject.toml").read_text(), re.MULTILINE)[1]
+    assert found - sys.stdlib_module_names == set(re.findall(r'"(\w+)>=', needed)) == {"numpy", "typing_extensions"}
 
 
 def test_everything_public_has_types():
