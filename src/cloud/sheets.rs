@@ -119,8 +119,9 @@ fn off_two_planes(places: &[DVec3], normal: DVec3, order: &mut [Keyed]) -> f64 {
     square_root(squares / (places.len() as f64 - 4.0))
 }
 
-/// The distance from a sheet to the next one, along its normal: the low percentile over the samples. It
-/// is infinite where most places have no other sheet near. `usual` is the usual spacing.
+/// The distance from a sheet to the next one, along its normal: the low percentile over the samples. The far sheet shines
+/// through wide gaps first, so a distance counts as (usual ÷ local spacing)² times as long. It is infinite where most
+/// places have no other sheet near. `usual` is the usual spacing.
 #[inline(never)]
 pub(crate) fn next_sheet(
     neighbors: &Neighbors,
@@ -137,7 +138,8 @@ pub(crate) fn next_sheet(
     } in some(samples)
     {
         let next = neighbors.along(*place, *normal, *spacing, near * spacing, far * usual);
-        distances.push(next);
+        let narrower = usual / spacing;
+        distances.push(next * (narrower * narrower));
     }
     Ok(percentile(&distances, LOW)?.unwrap_or(f64::INFINITY))
 }
