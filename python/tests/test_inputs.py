@@ -206,6 +206,17 @@ def test_the_function_takes_all_options():
     assert not np.array_equal(seen, SEEN.indices)
 
 
+def test_surface_overrides_what_a_cloud_is():
+    cloud = PointCloud(POINTS)
+    assert cloud.surface == "clean"
+    found, clean, noisy = (
+        cloud.visible_from(VIEWPOINT, looks=3, surface=surface).indices for surface in ("auto", "clean", "noisy")
+    )
+    assert np.array_equal(found, clean) and not np.array_equal(noisy, clean)
+    with pytest.raises(HprError, match="surface.*rough"):
+        cloud.visible_from(VIEWPOINT, looks=3, surface="rough")
+
+
 def test_a_file_is_read(tmp_path):
     np.save(tmp_path / "points.npy", POINTS.astype(np.float32))
     assert len(PointCloud(tmp_path / "points.npy")) == len(PointCloud(str(tmp_path / "points.npy"))) == 500

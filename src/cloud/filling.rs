@@ -9,17 +9,13 @@ use glam::DVec3;
 
 use crate::base::real::square_root;
 
-/// Regions, if there are enough samples.
+/// Regions, with at least as many samples in each.
 const RUNS: usize = 16;
-/// Samples in a region, at least.
-const LEAST: usize = 16;
 /// A region is cut so often into halves, always at its longest jump.
 const CUTS: usize = 3;
-/// A region holds things that are far apart if its parts span less than this share of it. Then only
-/// the parts count.
-const APART: f64 = 1.0 / 6.0;
 /// The emptiness above which gaps count as wider. Evenly sampled surfaces have 0.06 to 0.13. Errors
-/// against ray-traced truth change little between 0.155 and 0.175.
+/// against ray-traced truth change little between 0.155 and 0.175. A region also holds things that are far apart if
+/// its parts span less than this share of it. Then only the parts count.
 const EMPTY: f64 = 1.0 / 6.0;
 /// The largest answer.
 const WIDEST: f64 = 32.0;
@@ -47,13 +43,13 @@ pub(crate) fn widening(
         point,
     };
     let all = spacings.len();
-    let runs = (all / LEAST).clamp(1, RUNS);
+    let runs = (all / RUNS).clamp(1, RUNS);
     let mut emptiness = 0.0;
     for run in 0..runs {
         let [start, end] = [run * all / runs, (run + 1) * all / runs];
         let whole = samples.span(start..end);
         let parts = samples.parts(start..end, CUTS);
-        let spanned = if parts < APART * whole.area {
+        let spanned = if parts < EMPTY * whole.area {
             parts
         } else {
             whole.area

@@ -14,16 +14,10 @@ use crate::cloud::neighbors::{Nearest, Neighbors};
 use crate::cloud::plane::off_plane;
 use crate::cloud::points::Points;
 use crate::cloud::quadric::off_quadric;
-use crate::cloud::sheets::{Sample, are_sheets, next_sheet};
-use crate::cloud::statistics::mean_distance;
+use crate::cloud::sheets::{LOW, NEAR, Sample, are_sheets, next_sheet};
+use crate::cloud::statistics::{SAMPLES, mean_distance};
 use crate::cloud::surface;
 
-/// Clouds with fewer points tell nothing.
-const FEWEST: usize = 2000;
-/// Neighbors of the small and the large surroundings of a point.
-const NEAR: [usize; 2] = [16, 32];
-/// The percentile of the distances off the quadric.
-const LOW: usize = 25;
 /// From the low percentile to the standard deviation of normal noise.
 const TO_DEVIATION: f64 = 1.15;
 /// A cloud is noisy if its noise is more than this, in spacings. Clean scans have up to 0.065, and
@@ -35,23 +29,20 @@ const ROUGH: f64 = 1.28;
 /// Clouds of few points on curved bodies have more at their edges: this ÷ the number of points.
 const CURVED: f64 = 100.0;
 /// Less noise counts if it is even and [alike](MEASURED). The corners of clean meshes are not. This share of the noise never counts.
-const CLEAN: f64 = 0.04;
+pub(crate) const CLEAN: f64 = 0.04;
 /// Noise is even if this ratio of a low to a very low percentile is not reached. Normal noise gives
 /// 1.29, noisy objects at most 1.57, scans that overlap 1.89 and more.
 const EVEN: f64 = 1.8;
 const VERY_LOW: usize = 5;
-/// The measured noise comes nowhere near this, however large the noise is. Above 0.25 it is too small,
-/// as measured on spheres with noise of 0.1 to 2 spacings.
-const MOST: f64 = 0.56;
-const LEAST_LEFT: f64 = 0.2;
+/// Above half of this, the measured noise is too small: where noise is as large as the spacing, near points are
+/// those of like noise. Measured on spheres with noise of 0.1 to 2 spacings.
+const MOST: f64 = 0.53;
 
 /// Neighbors of the two surroundings whose planes are compared.
 const PLANES: [usize; 2] = [8, 24];
 /// A surface is measured by a scanner if points are about as far off their planes in the small
-/// surroundings as in the large ones, by this share, and at least so far, in spacings. Curved
-/// surfaces without noise have 0.2 to 0.5.
+/// surroundings as in the large ones, by this share. Curved surfaces without noise have 0.2 to 0.5.
 const MEASURED: f64 = 0.6;
-const LEAST_OFF: f64 = 0.008;
 /// Its samples are uneven if one spacing in ten is this many times the median.
 const SPREAD: f64 = 1.8;
 /// The gap of one hull's radius is the median spacing, divided by this: for scans, for overlapping
@@ -130,12 +121,11 @@ impl Noise {
             next_sheet: f64::INFINITY,
             samples: Vec::new(),
         };
-        let is_measured = measured.is_alike()? && low(&measured.planes[1], 50)? >= LEAST_OFF;
         let is_uneven = low(&cut, 90)? >= SPREAD * usual;
         let looser = match surface {
             Surface::Noisy if ratio > NOISY => 1.0 + BY_NOISE * noise.deviation() / noise.spacing,
             Surface::Layered => OVERLAPPING,
-            _ if is_measured && is_uneven => SCANNED,
+            _ if is_uneven && measured.is_alike()? => SCANNED,
             _ => 1.0,
         };
         if looser > 1.0 {
@@ -153,11 +143,9 @@ impl Noise {
             Surface::Clean => 0.0,
             Surface::Layered => self.ratio * self.usual,
             Surface::Noisy => {
-                // Where noise is as large as the spacing, near points are those of like noise.
                 let share = self.ratio / MOST;
-                let share = share * share;
-                let lost = (1.0 - share * share).max(LEAST_LEFT);
-                self.ratio / square_root(lost) * self.spacing
+                let cube = share * share * share;
+                self.ratio * (1.0 + cube * cube) * self.spacing
             }
         }
     }
@@ -185,21 +173,20 @@ struct Measured {
     ratios: [Vec<f64>; 2],
     /// In the cloud's units, for the small surroundings.
     lengths: Vec<f64>,
-    /// The distances off the planes of [`PLANES`]: the small ÷ the large one, and the small one in
-    /// spacings.
-    planes: [Vec<f64>; 2],
+    /// The distances off the planes of [`PLANES`]: the small ÷ the large one.
+    planes: Vec<f64>,
 }
 
 impl Measured {
     #[inline(never)]
     fn of(points: &Points, neighbors: &Neighbors, sample: &[u32]) -> Result<Self, OutOfMemory> {
-        let is_enough = points.len() >= FEWEST;
+        let is_enough = points.len() >= SAMPLES;
         let sample = if is_enough { sample } else { &[] };
         let count = sample.len();
         let mut samples: Vec<Sample> = with_capacity(count)?;
         let mut ratios = [with_capacity(count)?, with_capacity(count)?];
         let mut lengths: Vec<f64> = with_capacity(count)?;
-        let mut planes = [with_capacity(count)?, with_capacity(count)?];
+        let mut planes = with_capacity(count)?;
         let [_, most] = NEAR;
         let mut places: Vec<DVec3> = with_capacity(most + 1)?;
         let mut nearest = Nearest::with_capacity(most)?;
@@ -227,8 +214,7 @@ impl Measured {
             lengths.push(small.deviation / unit);
             let normal = small.normal;
             let [near, far] = PLANES.map(|count| off_plane(&places[..=count]));
-            planes[0].push(near / far);
-            planes[1].push(near / size);
+            planes.push(near / far);
             let [small_off, large_off] = [small, large].map(|off| off.deviation / size);
             ratios[0].push(small_off);
             ratios[1].push(large_off);
@@ -288,7 +274,7 @@ impl Measured {
 
     /// Whether points are about as far off their planes in small surroundings as in large ones.
     fn is_alike(&self) -> Result<bool, OutOfMemory> {
-        Ok(low(&self.planes[0], 50)? >= MEASURED)
+        Ok(low(&self.planes, 50)? >= MEASURED)
     }
 
     /// The low percentile of the distances ÷ the very low one, in spacings or in units, whichever

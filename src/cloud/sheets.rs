@@ -12,21 +12,18 @@ use crate::cloud::plane::{least_axis, outer_product};
 use crate::cloud::points::Points;
 use crate::cloud::quadric::off_quadric;
 
-/// Points around a place that are looked at.
-const AROUND: usize = 32;
-/// How many places are measured.
+/// Neighbors of the small and the large surroundings of a point.
+pub(crate) const NEAR: [usize; 2] = [16, 32];
+/// How many places are measured where that takes more than the quadrics of all samples.
 const PLACES: usize = 512;
-/// A cloud is sheets if this percentile of its rough places lies on two planes: if points are at most this
+/// The percentile that counts where edges and corners are to be left out.
+pub(crate) const LOW: usize = 25;
+/// A cloud is sheets if its rough places lie on two planes: if points are at most this
 /// share as far off them as off one quadric. Clean sheets have 0, scanned surfaces and all kinds of noise 0.34 and
 /// more, scans without noise that lie beside each other 0.13.
-const TWO: usize = 10;
 const SHEETS: f64 = 0.1;
-/// The percentile of the distances to the next sheet.
-const LOW: usize = 25;
 /// Points on each sheet, at least.
 const FEWEST: usize = 3;
-/// How often points are dealt anew to two planes.
-const ROUNDS: usize = 2;
 /// A point is on the next sheet if it lies from the first to the second number of spacings before or behind a place,
 /// and at most one local spacing beside its normal.
 const NEXT: [f64; 2] = [0.7, 30.0];
@@ -44,7 +41,7 @@ pub(crate) struct Sample {
 }
 
 /// Every so many-th sample, so that at most [`PLACES`] are left.
-fn some(samples: &[Sample]) -> impl Iterator<Item = &Sample> {
+pub(crate) fn some(samples: &[Sample]) -> impl Iterator<Item = &Sample> {
     samples
         .iter()
         .step_by(samples.len().div_ceil(PLACES).max(1))
@@ -59,9 +56,10 @@ pub(crate) fn are_sheets(
     samples: &[Sample],
     least: f64,
 ) -> Result<bool, OutOfMemory> {
-    let mut nearest = Nearest::with_capacity(AROUND)?;
-    let mut places: Vec<DVec3> = with_capacity(AROUND + 1)?;
-    let mut order: Vec<Keyed> = filled(AROUND + 1, (0, 0))?;
+    let [_, around] = NEAR;
+    let mut nearest = Nearest::with_capacity(around)?;
+    let mut places: Vec<DVec3> = with_capacity(around + 1)?;
+    let mut order: Vec<Keyed> = filled(around + 1, (0, 0))?;
     let mut shares = with_capacity(PLACES)?;
     for sample in some(samples).filter(|sample| sample.noise > least) {
         neighbors.find(sample.point as usize, &mut nearest);
@@ -79,43 +77,38 @@ pub(crate) fn are_sheets(
             shares.push(share);
         }
     }
-    Ok(percentile(&shares, TWO)?.is_some_and(|share| share <= SHEETS))
+    Ok(percentile(&shares, LOW)?.is_some_and(|share| share <= SHEETS))
 }
 
-/// How far places lie off two parallel planes, which are first sought across `normal`: the root of the
+/// How far places lie off two parallel planes, which are on both sides of the widest gap along `normal`: the root of the
 /// mean square. The sum of squares is divided by the number of places above 4.
 fn off_two_planes(places: &[DVec3], normal: DVec3, order: &mut [Keyed]) -> f64 {
-    let mut normal = normal;
-    let mut squares = 0.0;
-    for _ in 0..ROUNDS {
-        for (number, item) in (0..).zip(&mut *order) {
-            *item = (ordered(places[number as usize].dot(normal)), number);
-        }
-        sort_keyed(order);
-        let place = |(_, number): &Keyed| places[*number as usize];
-        // The planes are on both sides of the widest gap.
-        let height = |at: usize| place(&order[at]).dot(normal);
-        let gap = |at: usize| height(at) - height(at - 1);
-        let mut cut = FEWEST;
-        for at in FEWEST..=order.len() - FEWEST {
-            if gap(at) > gap(cut) {
-                cut = at;
-            }
-        }
-        let (low, high) = order.split_at(cut);
-        let mut spread = DMat3::ZERO;
-        for sheet in [low, high] {
-            let sum = sheet
-                .iter()
-                .fold(DVec3::ZERO, |sum, item| sum + place(item));
-            let mean = sum / sheet.len() as f64;
-            for item in sheet {
-                spread += outer_product(place(item) - mean);
-            }
-        }
-        normal = least_axis(spread);
-        squares = normal.dot(spread * normal).max(0.0);
+    for (number, item) in (0..).zip(&mut *order) {
+        *item = (ordered(places[number as usize].dot(normal)), number);
     }
+    sort_keyed(order);
+    let place = |(_, number): &Keyed| places[*number as usize];
+    let height = |at: usize| place(&order[at]).dot(normal);
+    let gap = |at: usize| height(at) - height(at - 1);
+    let mut cut = FEWEST;
+    for at in FEWEST..=order.len() - FEWEST {
+        if gap(at) > gap(cut) {
+            cut = at;
+        }
+    }
+    let (low, high) = order.split_at(cut);
+    let mut spread = DMat3::ZERO;
+    for sheet in [low, high] {
+        let sum = sheet
+            .iter()
+            .fold(DVec3::ZERO, |sum, item| sum + place(item));
+        let mean = sum / sheet.len() as f64;
+        for item in sheet {
+            spread += outer_product(place(item) - mean);
+        }
+    }
+    let normal = least_axis(spread);
+    let squares = normal.dot(spread * normal).max(0.0);
     square_root(squares / (places.len() as f64 - 4.0))
 }
 

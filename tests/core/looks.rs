@@ -187,7 +187,7 @@ fn degenerate_clouds_answer_as_documented() {
     assert_eq!(seen(&triangle[..2], FRONT), (vec![0, 1], vec![1.0; 2]));
     let (indices, scores) = seen(&triangle, FRONT);
     assert_eq!(indices, [0, 1, 2]);
-    assert!(scores.iter().all(|score| (0.95..1.0).contains(score)));
+    assert!(scores.iter().all(|score| (0.95..=1.0).contains(score)));
     // Equal points share one answer.
     let equal = [
         triangle[0],

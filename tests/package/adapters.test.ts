@@ -270,6 +270,7 @@ describe.each(ADAPTERS.map((adapter) => [adapter.name, adapter] as const))("%s",
       [{ radius: 5, exponent: 2 }, "exclude"],
       [{ moveThreshold: 1 }, "unknown option"],
       [{ thickness: 0.1, exponent: 2 }, "thickness"],
+      [{ surface: "rough" }, "surface"],
       [{ looks: 3, scores: true }, "scores"],
     ])("refuses %o", async (options, words) => {
       const problem = await problemOf(() => page(options));

@@ -109,10 +109,18 @@ describe("a surface with noise", () => {
     expect(auto.length).toBeGreaterThan(1.2 * at({ thickness: 0 }).length);
     expect(at({ thickness: "auto" })).toEqual(auto);
     expect(at({ thickness: 0.2 }).length).toBeGreaterThan(at({ thickness: 0 }).length);
+    expect([noisy.surface, new PointCloud(sphere).surface]).toEqual(["noisy", "clean"]);
+    expect(at({ surface: "noisy" })).toEqual(auto);
+    expect(at({ surface: "auto" })).toEqual(auto);
+    expect(at({ surface: "clean" }).length).toBeLessThan(0.9 * auto.length);
+    expect(at({ surface: "layered" })).not.toEqual(auto);
 
     const other = await WorkerPointCloud.create(rough);
     expect(await other.noise).toBe(noisy.noise);
+    expect(await other.surface).toBe("noisy");
     expect((await other.visibleFrom(farAway, { looks: 3 })).indices).toEqual(auto);
+    const clean = await other.visibleFrom(farAway, { looks: 3, surface: "clean" });
+    expect(clean.indices).toEqual(at({ surface: "clean" }));
     noisy.remove(auto);
     expect(noisy.noise).not.toBe(await other.noise);
     await other.dispose();
@@ -208,6 +216,8 @@ describe("an error names the option", () => {
     [/thickness.*NaN/, view({ looks: 3, thickness: NaN })],
     [/thickness.*Infinity/, view({ looks: 3, thickness: Infinity })],
     [/thickness.*"thin"/, view({ looks: 3, thickness: "thin" })],
+    [/surface.*only with looks/, view({ surface: "clean" })],
+    [/surface.*"rough"/, view({ looks: 3, surface: "rough" })],
     [/scores.*true or false.*1/, view({ looks: 3, scores: 1 })],
     [/scores.*several viewpoints/, () => cloud.visibleFromAny([farAway], { looks: 3, scores: true })],
     [/scores.*several viewpoints/, () => cloud.visibleFromAtLeast(1, [farAway], { looks: 3, scores: true })],

@@ -3,17 +3,19 @@
 
 use alloc::vec::Vec;
 
+use crate::answers::looks::decide::BEHIND;
 use crate::answers::looks::look::{Look, Verdict, Verdicts};
 use crate::answers::looks::rays::{Ray, Rays};
-use crate::answers::looks::tuning::Tuning;
 use crate::base::allocation::{OutOfMemory, push};
 use crate::cloud::points::Points;
 
 /// Only so many visible points, nearest by direction, can show a point. Behind a closed surface all
 /// of them are nearer.
-const NEAREST: usize = 8;
+const NEAREST: usize = 5;
+/// How far beside a ray a visible point may be to show a point, in thicknesses.
+pub(super) const ASIDE: f64 = 2.0;
 /// The score of a point that is shown so.
-const SHOWN: f64 = 0.6;
+const SHOWN: f64 = 0.8;
 
 impl Verdicts {
     /// Shows hidden points beside visible ones.
@@ -30,8 +32,8 @@ impl Verdicts {
         if visible.len() < NEAREST {
             return Ok(());
         }
-        let Tuning { aside, nearer, .. } = look.tuning;
-        let [aside, nearer] = [aside, nearer].map(|length| length * look.unit);
+        let thickness = look.thickness();
+        let aside = ASIDE * thickness;
         for point in 0..points.len() {
             if self.of[point] == Verdict::Visible {
                 continue;
@@ -42,7 +44,7 @@ impl Verdicts {
             } else {
                 aside / ray.range
             };
-            if visible.show(&ray, reach, nearer) {
+            if visible.show(&ray, reach, BEHIND * thickness) {
                 self.decide(point, true, SHOWN);
             }
         }

@@ -8,25 +8,16 @@ use crate::answers::looks::part::{Left, Part};
 use crate::answers::looks::triangle::Triangle;
 use crate::base::allocation::{OutOfMemory, filled};
 use crate::base::beat;
-use crate::base::real::square_root;
+use crate::base::real::larger;
 use crate::cloud::points::Points;
 use crate::hull::{Exit, FaceId, OuterFaces, Vertex};
 
 /// Surface hides a point that lies farther behind it, along the ray, than this share of the
-/// triangle's longest edge.
-const BEHIND: f64 = 0.45;
+/// triangle's longest edge, or than half the distance to the next sheet. At that depth the score is ½: 1 / (1 + depth²).
+pub(super) const BEHIND: f64 = 0.45;
 /// A hull vertex counts as visible only if c is at least this many local spacings of the vertices
 /// beside it. A hull that is too loose for its samples has vertices behind the surface.
 const RING: f64 = 0.02;
-/// The score of a vertex is less by up to this share, the wider its ring is.
-const LESS_SURE: f64 = 0.1;
-/// The score of a point whose ray crosses surface, by its depth in longest edges of the triangle:
-/// [`SURE`] / (1 + (depth / [`HALF`])²).
-const SURE: f64 = 0.97;
-const HALF: f64 = 0.6;
-/// The score of a point that is farther behind a triangle of the last look than the triangle is
-/// long, where the triangle is no surface.
-const FAR: f64 = 0.05;
 
 impl Verdicts {
     /// Lets a look decide the points that it is sure of. Returns the points that take part in the
@@ -72,11 +63,12 @@ impl Verdicts {
             let place = look.place(points.get(point));
             let behind = triangle.behind(place, look.ahead);
             // A surface with a thickness hides what is behind all of it.
-            let depth = behind / (triangle.longest + look.thickness() / BEHIND);
-            if triangle.longest <= longest * triangle.size {
-                self.judge(point, depth);
-            } else if look.is_last && behind > triangle.longest {
-                self.decide(point, depth <= BEHIND, FAR);
+            let most = (BEHIND * triangle.longest).min(look.tuning.behind * look.unit);
+            let depth = behind / (most + look.thickness());
+            let is_surface = triangle.longest <= longest * triangle.size;
+            if is_surface || look.is_last && behind > triangle.longest {
+                // A triangle that is seen edge-on hides the point: its depth is infinite or NaN.
+                self.decide(point, depth <= 1.0, score_at(depth));
             } else {
                 left.takes_part[own] = true;
                 let numbered = faces.points_of_vertices();
@@ -101,11 +93,11 @@ impl Verdicts {
         let ring = RING * look.tuning.ring;
         let is_even = look.tuning.growth == 0.0;
         let is_wide = look.scale * look.unit >= ring * corners.widest;
-        let rings = if !(is_even && is_wide && self.scores.is_empty()) {
-            corners.rings()?
-        } else {
+        let rings = if is_even && is_wide {
             // The ring of every vertex is narrow enough.
             Vec::new()
+        } else {
+            corners.rings()?
         };
         let count = part.len(self.of.len());
         let mut left = Left {
@@ -123,24 +115,15 @@ impl Verdicts {
                 .get(vertex)
                 .map_or(0.0, |mean| ring * mean / look.scale_at(place));
             if self.is_open(point) && width <= 1.0 {
-                let score = look.score * (1.0 - LESS_SURE * square_root(width));
-                self.decide(point, true, score);
+                self.decide(point, true, look.score);
             }
         }
         Ok(left)
     }
+}
 
-    /// Decides a point whose ray leaves the hull by surface, `depth` longest edges before it.
-    fn judge(&mut self, point: usize, depth: f64) {
-        // A triangle that is seen edge-on hides the point: its depth is infinite or NaN.
-        let is_visible = depth <= BEHIND;
-        if self.scores.is_empty() {
-            self.decide(point, is_visible, 0.0);
-        } else {
-            let far = depth / HALF;
-            let score = SURE / (1.0 + far * far);
-            let score = if score > 0.0 { score } else { 0.0 };
-            self.decide(point, is_visible, score);
-        }
-    }
+/// From 1 before a surface to ½ at the depth that it hides; 0 where the depth is NaN.
+fn score_at(depth: f64) -> f64 {
+    let depth = larger(depth, 0.0);
+    larger(0.0, 1.0 / (1.0 + depth * depth))
 }

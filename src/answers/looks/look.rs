@@ -10,11 +10,7 @@ use crate::base::allocation::{OutOfMemory, filled};
 use crate::base::real::square_root;
 
 /// The score of a point that nothing decides.
-const UNKNOWN: f64 = 0.2;
-/// How many points before and after a point, in the cloud's order, have a part in its score.
-const BESIDE: usize = 4;
-/// Their part.
-const SHARE: f32 = 0.2;
+const UNKNOWN: f32 = 0.2;
 
 /// The settings of one look.
 pub(super) struct Look {
@@ -88,7 +84,7 @@ impl Verdicts {
     pub(super) fn new(count: usize, with_scores: bool) -> Result<Self, OutOfMemory> {
         Ok(Self {
             of: filled(count, Verdict::Undecided)?,
-            scores: filled(if with_scores { count } else { 0 }, UNKNOWN as f32)?,
+            scores: filled(if with_scores { count } else { 0 }, UNKNOWN)?,
             longest: None,
         })
     }
@@ -124,19 +120,11 @@ impl Verdicts {
         }
     }
 
-    /// Mixes each score with the mean score of the points beside it. Points that follow each other
-    /// in the cloud's order are near each other in space.
-    pub(super) fn mix_scores(&mut self, odds: Odds) -> Result<(), OutOfMemory> {
-        let own = core::mem::take(&mut self.scores);
-        self.scores = filled(own.len(), 0.0)?;
-        for (place, mixed) in self.scores.iter_mut().enumerate() {
-            let near = place.saturating_sub(BESIDE)..own.len().min(place + BESIDE + 1);
-            let others = (near.len() - 1).max(1) as f32;
-            let own_share = own[place] * (1.0 - SHARE);
-            let sum = near.fold(0.0, |sum, other| sum + own[other]);
-            *mixed = odds.probability(own_share + SHARE * (sum - own[place]) / others);
+    /// Turns the scores into probabilities.
+    pub(super) fn calibrate(&mut self, odds: Odds) {
+        for score in &mut self.scores {
+            *score = odds.probability(*score);
         }
-        Ok(())
     }
 
     /// The answer. A point that is still undecided is hidden.

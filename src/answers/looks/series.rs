@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use crate::answers::looks::aside::ASIDE;
 use crate::answers::looks::followers::follow;
 use crate::answers::looks::look::{Look, Seen, Verdicts};
 use crate::answers::looks::part::Part;
@@ -19,8 +20,8 @@ use crate::flip::lift::Lift;
 use crate::hull::{self, Memory, OuterFaces};
 use crate::view::resolved::check_viewpoint;
 
-/// The highest score of a hull vertex, by look.
-const SCORES: [f64; 3] = [1.0, 1.0, 0.9];
+/// The score of a hull vertex, by look.
+const SCORES: [f64; 3] = [1.0, 0.8, 0.55];
 /// How far, in standard deviations of the noise, a point may be from its place without noise. Chosen
 /// on four views of a cow with noise of two spacings.
 const DEVIATIONS: f64 = 10.0;
@@ -75,7 +76,7 @@ pub(crate) fn look_of_map(
         behind += DEVIATIONS * cloud.noise()?;
     }
     // The margins of a measured thickness are wide enough as they are.
-    let aside = thickness.map_or(0.0, |_| tuning.aside);
+    let aside = thickness.map_or(0.0, |_| ASIDE * tuning.thickness);
     Ok((
         Flip::new(viewpoint, kernel),
         Depth { behind, aside },
@@ -163,11 +164,11 @@ impl Series {
             if self.next == count && !self.is_flat {
                 let points = &cloud.sequence.points;
                 follow(&mut self.verdicts, points)?;
-                if self.tuning.aside > 0.0 {
+                if self.tuning.thickness > 0.0 {
                     let look = self.look(cloud, count - 1);
                     self.verdicts.show_aside(&look, points)?;
                 }
-                self.verdicts.mix_scores(self.tuning.odds)?;
+                self.verdicts.calibrate(self.tuning.odds);
             }
             self.next = count + 1;
             return Ok(true);

@@ -13,6 +13,7 @@ use crate::base::beat;
 use crate::base::real::larger;
 use crate::base::sort::percentile;
 use crate::cloud::points::Points;
+use crate::cloud::statistics::SAMPLES;
 use crate::hull::{Exit, OuterFaces};
 
 /// A triangle of a hull may be surface if its longest edge is at most this many local spacings.
@@ -21,8 +22,6 @@ const LEAST: f64 = 4.0;
 /// [`PERCENTILE`] percent of them have at most. Errors are the same within 1.6 to 1.9, and 75 to 85.
 const LONGER: f64 = 1.75;
 const PERCENTILE: usize = 80;
-/// How many points are asked for the triangles before them.
-const SAMPLES: usize = 4096;
 
 impl Verdicts {
     /// The longest edge that a triangle of a surface has, in local spacings. It follows from the

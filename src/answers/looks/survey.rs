@@ -16,37 +16,29 @@ use crate::base::allocation::{OutOfMemory, filled, with_capacity};
 use crate::base::error::Error;
 use crate::base::sort::percentile;
 use crate::cloud::neighbors::{Nearest, Neighbors};
-use crate::cloud::noise::{Noise, Surface};
+use crate::cloud::noise::{CLEAN, Noise, Surface};
 use crate::cloud::point_cloud::{PointCloud, Smooth, Survey};
 use crate::cloud::quadric::off_quadric;
+use crate::cloud::sheets::{NEAR, some};
 
-/// How many neighbors make the plane to which a point moves.
-const NEIGHBORS: usize = 32;
-/// Points move until their noise is at most this, in spacings, and at most so often.
-const CLEAN: f64 = 0.04;
+/// Points move at most so often.
 const PASSES: usize = 3;
-/// Moving points joins layers if, at this percentile of so many places, they lie off their surface afterwards by at most this
+/// Moving points joins layers if, at this percentile, they lie off their surface afterwards by at most this
 /// share of the noise: by 0.12 to 0.31 in objects whose scans are up to half a spacing off, by 0.42 and more in registered rooms and streets.
 const HIGH: usize = 75;
-const PLACES: usize = 512;
 const JOINED: f64 = 0.36;
-/// How many of the nearest points tell of the surface at a place.
-const AROUND: usize = 16;
 
 /// Whether moved points lie in one surface.
 #[inline(never)]
 fn are_joined(cloud: &PointCloud, noise: &Noise) -> Result<bool, OutOfMemory> {
     let points = &cloud.sequence.points;
-    let samples = &noise.samples;
     let neighbors = Neighbors::new(points)?;
-    let mut around = Nearest::with_capacity(AROUND)?;
-    let mut nearest = Nearest::with_capacity(NEIGHBORS)?;
-    let mut moved = with_capacity(AROUND + 1)?;
-    let mut off = with_capacity(PLACES)?;
-    for sample in samples
-        .iter()
-        .step_by(samples.len().div_ceil(PLACES).max(1))
-    {
+    let [surface, plane] = NEAR;
+    let mut around = Nearest::with_capacity(surface)?;
+    let mut nearest = Nearest::with_capacity(plane)?;
+    let mut moved = with_capacity(surface + 1)?;
+    let mut off = with_capacity(noise.samples.len())?;
+    for sample in some(&noise.samples) {
         let query = sample.point as usize;
         neighbors.find(query, &mut around);
         let [origin, spacing] = [
@@ -71,7 +63,8 @@ fn are_joined(cloud: &PointCloud, noise: &Noise) -> Result<bool, OutOfMemory> {
 impl Smooth {
     fn of(cloud: &PointCloud) -> Result<Self, Error> {
         let most = cloud.sequence.points.len().saturating_sub(1);
-        let neighbors = NEIGHBORS.min(most).max(1);
+        let [_, plane] = NEAR;
+        let neighbors = plane.min(most).max(1);
         let mut moved = cloud.denoised(neighbors)?;
         let mut noise = moved.known_noise()?;
         for _ in 1..PASSES {
@@ -110,8 +103,8 @@ impl Smooth {
 
 impl PointCloud {
     /// One standard deviation of the noise, in the cloud's units: how far measured points lie off
-    /// their surface. It is 0 where nothing tells of noise, and where there are fewer than 2000
-    /// distinct points. It is measured at up to 2048 points.
+    /// their surface. It is 0 where nothing tells of noise, and where there are fewer than 2048
+    /// distinct points. It is measured at 2048 points.
     ///
     /// # Errors
     /// [`Error::OutOfMemory`].

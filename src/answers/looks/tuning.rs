@@ -27,9 +27,6 @@ const SHARES: [f64; 3] = [0.28, 0.07, 0.02];
 /// The thickness of layers in standard deviations beyond what clean clouds have. Errors on registered scans
 /// change little between 8 and 16.
 const LAYERS: f64 = 14.0;
-/// How far beside a ray a visible point may be to show a point, and how much nearer, as shares of the thickness.
-const ASIDE: f64 = 2.0;
-const NEARER: f64 = 0.4;
 /// Spacing grows with range if its power, times what that explains, is above this; clean surfaces
 /// have 0.1 from inside. It has its full effect from the second number on. The widening of a scan in
 /// rings is about 20, so hulls are 50 times looser then. The effect grows with the square of the way
@@ -66,10 +63,8 @@ pub(super) struct Tuning {
     pub wide: f64,
     /// How far behind a surface a point may be besides what its triangles allow.
     pub thickness: f64,
-    /// How far beside a ray a visible point may be.
-    pub aside: f64,
-    /// How much nearer than the point that it shows.
-    pub nearer: f64,
+    /// Half the distance to the next sheet: how far behind a surface a point may be at most, besides the thickness.
+    pub behind: f64,
     /// What scores become.
     pub odds: Odds,
 }
@@ -115,15 +110,11 @@ impl Tuning {
         };
         let thickness = given.unwrap_or(of_layers);
         let is_thick = is_layered || thickness > 0.0;
+        let is_scanned = measured.gap.is_some() || thickness > 0.0;
         let odds = Odds::of(
-            !is_moved && measured.gap.is_some(),
-            if is_moved { measured.ratio } else { 0.0 },
+            is_moved.then_some(measured.ratio),
+            is_scanned.then_some(thickness / statistics.spacing),
             growth,
-            if thickness > 0.0 {
-                thickness / (LAYERS * statistics.spacing)
-            } else {
-                0.0
-            },
         );
         let mut ring = libm::pow(2.0, -LOOSER_BY_RANGE * growth);
         let mut looser = ring;
@@ -152,8 +143,7 @@ impl Tuning {
             },
             wide,
             thickness,
-            aside: ASIDE * thickness,
-            nearer: NEARER * thickness,
+            behind: 0.5 * noise.next_sheet,
             odds,
         })
     }
@@ -183,8 +173,7 @@ impl Tuning {
             widest: f64::INFINITY,
             wide: 1.0,
             thickness: 0.0,
-            aside: 0.0,
-            nearer: 0.0,
+            behind: 0.5 * noise.next_sheet,
             odds: Odds::PLAIN,
         }
     }

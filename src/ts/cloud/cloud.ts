@@ -92,7 +92,7 @@ export class PointCloud {
   /**
    * How far measured points lie off their surface: one standard deviation, in the cloud's units. It is
    * measured at 2048 distinct points when it is read first, and again after a change. It is 0 where
-   * nothing tells of noise: on clean surfaces, for fewer than 2000 distinct points, and above three
+   * nothing tells of noise: on clean surfaces, for fewer than 2048 distinct points, and above three
    * dimensions. `thickness` follows from it.
    *
    * @throws HprError `too-large`, `disposed`, `internal`.
