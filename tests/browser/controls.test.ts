@@ -17,6 +17,21 @@ import { differentPixels } from "./pixels.js";
 
 const SAMPLE = "?sample=dragon_res3&looks=0";
 
+test("zooming out ends while the cloud is in sight, and the first screen has the way back", async () => {
+  const page = await openReady("?sample=bunny", {}, async (opened) => {
+    await opened.addInitScript(() => {
+      localStorage.removeItem("hidden-point-removal: tools");
+    });
+  });
+  const { viewpoint } = await status(page);
+  await page.locator("#view").focus();
+  for (let i = 0; i < 150; i++) await page.keyboard.press("-");
+  const far = (await settled(page)).viewpoint;
+  expect(Math.hypot(...far) / Math.hypot(...viewpoint)).toBeLessThan(31);
+  await page.getByRole("button", { name: "Reset view" }).click();
+  expect((await settled(page)).viewpoint).toEqual(viewpoint);
+});
+
 test("the field of view, the size of points and keys in the panel's fields ask nothing, and move nothing", async () => {
   const page = await openReady(SAMPLE);
   const before = await settled(page);

@@ -1,5 +1,6 @@
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
+import { gzipSync } from "node:zlib";
 import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
 import { asciiPly, ball, binaryPly, georeferencedBall, meshObj, pcd, rows, text } from "./clouds.js";
@@ -91,6 +92,39 @@ test("12 million points are thinned, and are never all in memory", async () => {
   const now = await answered(page, before);
   expect(now).toMatchObject({ state: "ready", total: 100_000 });
   expect(await page.locator("#message p").textContent()).toBe("Every 120th of its 12,000,000 points is shown.");
+});
+
+test("a place stands upright by its points, under any name, and can be turned where its name stands", async () => {
+  // A street on a hill: level ground along z, two walls.
+  const street = Float32Array.from(
+    Array.from({ length: 3000 }, (_, i) => {
+      const [u, v] = [(i * 0.7548776662) % 1, (i * 0.5698402909) % 1];
+      return i % 3 < 2 ? [40 * u, 12 * v, 0.05 * u] : [40 * u, i % 2 ? 0 : 12, 7 * v];
+    }).flat(),
+  );
+  const page = await openReady("?sample=bunny", {}, async (opened) => {
+    await opened.addInitScript(() => {
+      localStorage.removeItem("hidden-point-removal: tools");
+    });
+  });
+  const up = () => page.locator("#up-axis input:checked").inputValue();
+  const bytes = asciiPly(street);
+  for (const [name, buffer] of [
+    ["scene.ply", Buffer.from(bytes)],
+    ["scene.ply.gz", gzipSync(bytes)],
+  ] as const) {
+    await page.locator("#file").setInputFiles({ name, mimeType: "", buffer });
+    await page.locator("#source .credit", { hasText: name }).waitFor();
+    expect(await up(), name).toBe("z");
+  }
+  // An object without ground has the usual side of its format.
+  await page
+    .locator("#file")
+    .setInputFiles({ name: "ball.ply", mimeType: "", buffer: Buffer.from(asciiPly(ball(300))) });
+  await page.locator("#source .credit", { hasText: "ball.ply" }).waitFor();
+  expect(await up()).toBe("y");
+  await page.locator("#source").getByRole("button", { name: "Turn upright" }).click();
+  expect(await up()).toBe("-y");
 });
 
 test("a depth camera's cloud is seen upright from where it was taken", async () => {

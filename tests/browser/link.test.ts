@@ -77,7 +77,7 @@ test("the code for another page shows the present view: the package and the elem
   const code = await copied("HTML element");
   const [script, element] = code.split("\n");
   expect(script).toBe(`<script type="module" src="${site.address}hidden-point-cloud.js"></script>`);
-  served.set("other.html", new TextEncoder().encode(`<!doctype html>${code}`));
+  served.set("other.html", new TextEncoder().encode(`<!doctype html><link rel="icon" href="data:," />${code}`));
   await page.goto(`${site.address}other.html`);
   const shown = await page.evaluate(async () => {
     const found = document.querySelector("hidden-point-cloud") as HTMLElement & {

@@ -1,6 +1,17 @@
 import type { VisibilityOptions } from "hidden-point-removal";
 import { expect, test } from "vitest";
-import { dragonPositions, inNode, openReady, status, type Status, unfold, upToDate } from "./support.js";
+import {
+  addressWritten,
+  dragonPositions,
+  inNode,
+  openReady,
+  settled,
+  site,
+  status,
+  type Status,
+  unfold,
+  upToDate,
+} from "./support.js";
 
 const SAMPLE = "?sample=dragon_res4&looks=0";
 const positions = dragonPositions("_res4");
@@ -10,6 +21,28 @@ async function expected({ viewpoint }: Status, options: VisibilityOptions) {
   const { count, radius, evaluations } = await inNode(positions, (cloud) => cloud.visibleFrom(viewpoint, options));
   return { visible: count, radius, evaluations };
 }
+
+test("the page says what looks take the cloud to be, and a person can change it", async () => {
+  const page = await openReady("?sample=dragon_res3");
+  await page.locator('#status[data-surface="clean"]').waitFor({ state: "attached" });
+  await unfold(page, "Advanced");
+  const found = page.locator("#sheet .found");
+  expect(await found.textContent()).toBe("A clean surface.");
+  const before = await upToDate(page);
+  await page.locator("#surface").getByRole("radio", { name: "Noisy" }).check();
+  await page.locator('#status[data-surface="noisy"]').waitFor({ state: "attached" });
+  const noisy = await settled(page);
+  const expected = await inNode(dragonPositions("_res3"), (cloud) =>
+    cloud.visibleFrom(before.viewpoint, { looks: 3, surface: "noisy" }),
+  );
+  expect(noisy.visible).toBe(expected.count);
+  expect((await addressWritten(page)).get("surface")).toBe("noisy");
+  await page.goto(`${site.address}?sample=dragon_res3&surface=layered&thickness=0.004`);
+  await page.locator('#status[data-surface="layered"]').waitFor({ state: "attached" });
+  expect(await found.textContent()).toBe(
+    "A layered scan; points up to about 0.004\u00a0units behind a surface are shown.",
+  );
+});
 
 test("a radius in the cloud's units is used as it is; if it is too small, a message says so and the automatic radius is used", async () => {
   const page = await openReady(`${SAMPLE}&view=0.1,0.2,0.3&radius=25`);

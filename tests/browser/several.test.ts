@@ -21,6 +21,20 @@ async function choose(page: Page, files: Record<string, Uint8Array | string>): P
   await page.locator("#file").setInputFiles(payload);
 }
 
+test("a file that is far away from the others or cannot be read is named, and is not named as open", async () => {
+  const page = await openReady("?sample=bunny");
+  await choose(page, {
+    "near.ply": asciiPly(ball(300)),
+    "far.ply": asciiPly(ball(300).map((value, i) => (i % 3 === 0 ? value + 5_000_000 : value))),
+    "torn.ply": "ply",
+  });
+  await page.locator('#status[data-total="300"]').waitFor();
+  const message = await page.locator("#message p").textContent();
+  expect(message).toMatch(/far\.ply lies 5,000,000 units away from near\.ply and is left out; open it alone\./);
+  expect(message).toMatch(/torn\.ply/);
+  expect(await page.locator("#own").textContent()).toBe("near.ply");
+});
+
 test("coordinates of several files do not change by a bit, and each point knows its file", () => {
   const one: LoadedCloud = {
     positions: Float32Array.of(0.1, 0.2, 0.3, 1, 2, 3),

@@ -1,5 +1,6 @@
 import { expect, test } from "vitest";
 import { at, clickPoint, everything, lonely, MIDDLE, openBall, place, tool, visible } from "./ball.js";
+import { measured } from "../../www/tools/make.js";
 import { drag, openReady, settled, status, upToDate, unfold } from "./support.js";
 
 const [X, Y, Z] = MIDDLE;
@@ -108,8 +109,37 @@ test("two clicks measure a distance in the file's units, any number of times", a
   await page.keyboard.press("Escape");
   expect(await page.locator("#marks .ring").count()).toBe(0);
   expect(await page.locator("#marks .measure").count()).toBe(2);
+  await page.getByRole("button", { name: "Undo" }).click();
+  expect(await page.locator("#marks .measure text").allTextContents()).toEqual(texts.slice(0, 1));
+  expect(Number(await result.getAttribute("data-distance"))).toBe(distance(a!, b!));
   await page.getByRole("button", { name: "Clear all" }).click();
   expect(await page.locator("#marks .measure").count()).toBe(0);
+});
+
+test("lengths have the digits of their unit", () => {
+  const meters = { name: "m", meters: 1 };
+  const said = ([11.5812, 0.0123456, 1234.5678, 0] as const).map((value) => measured(value, meters));
+  expect(said).toEqual(["11.58\u00a0m", "0.0123\u00a0m", "1234.57\u00a0m", "0\u00a0m"]);
+  expect(measured(11.5812, { name: "mm", meters: 0.001 })).toBe("11.6\u00a0mm");
+  expect(measured(11.5812, null)).toBe("11.5812\u00a0units");
+});
+
+test("the keys of the tools work wherever the focus is, and open the drawer", async () => {
+  const page = await openReady("?sample=bunny");
+  await page.getByRole("button", { name: "Close tools" }).click();
+  for (const [key, name] of [
+    ["p", "Pick"],
+    ["m", "Measure"],
+    ["l", "Label"],
+    ["s", "Select"],
+    ["t", "Stations"],
+    ["e", "Export"],
+  ] as const) {
+    await page.keyboard.press(key);
+    expect(await tool(page, name).getAttribute("aria-pressed"), key).toBe("true");
+  }
+  await page.keyboard.press("c");
+  expect(await page.locator("#divider").isVisible()).toBe(true);
 });
 
 test("a label is shown as long as its point is visible", async () => {

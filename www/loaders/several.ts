@@ -29,6 +29,12 @@ export async function readSeveral(
     try {
       if (file.size === 0) throw new LoadProblem(`${name} is empty.`);
       const cloud = checkedCloud(name, await readCloud(reading), false);
+      const [first] = parts;
+      const apart = first ? farApart(first.cloud, cloud) : 0;
+      if (apart > 0) {
+        const far = `${number.format(Number(apart.toPrecision(3)))} ${cloud.facts?.crs?.unit?.name ?? "units"}`;
+        throw new LoadProblem(`${name} lies ${far} away from ${first!.name} and is left out; open it alone.`);
+      }
       parts.push({ name, cloud: everyNth(cloud, step) });
     } catch (error) {
       if (!(error instanceof LoadProblem)) throw error;
@@ -44,6 +50,27 @@ export async function readSeveral(
   const cloud = merged(parts);
   const thinned = step > 1 ? [`Of all points of these files, one in ${number.format(step)} is shown.`] : [];
   return { ...cloud, notes: [...problems, ...thinned, ...(cloud.notes ?? [])] };
+}
+
+/** A file that is farther away than this many times the larger of two clouds would leave both too small to be seen. */
+const FAR = 300;
+
+/** The distance of two clouds, if they are too far apart to be shown together. Else 0. */
+function farApart(...clouds: [LoadedCloud, LoadedCloud]): number {
+  const boxes = clouds.map(({ positions }) =>
+    [0, 1, 2].map((axis) => {
+      let [low, high] = [Infinity, -Infinity];
+      for (let i = axis; i < positions.length; i += 3) {
+        low = Math.min(low, positions[i]!);
+        high = Math.max(high, positions[i]!);
+      }
+      return [low, high] as const;
+    }),
+  );
+  const [a, b] = boxes as [(typeof boxes)[0], (typeof boxes)[0]];
+  const apart = Math.hypot(...a.map(([low, high], axis) => Math.max(0, low - b[axis]![1], b[axis]![0] - high)));
+  const size = Math.max(...boxes.map((box) => Math.hypot(...box.map(([low, high]) => high - low))));
+  return size > 0 && apart > FAR * size ? apart : 0;
 }
 
 function pointsOf(parts: readonly Named[]): number {

@@ -82,7 +82,7 @@ export async function openCloud(
   const [station] = stations;
   const alone = stations.length === 1 ? station : undefined;
   const usual = {
-    ...usualLook(sample, name, loaded.taken?.up, cloud.center),
+    ...usualLook(sample, name, loaded.taken?.up, cloud),
     ...(alone && { fieldOfView: FROM_STATION }),
   };
   const { view, places, notes: farNotes } = inReachOnly(cloud, wanted, wished, place.asked);

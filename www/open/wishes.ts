@@ -2,6 +2,7 @@ import type { LoadRequest } from "../loaders/index.ts";
 import type { Sample } from "../samples/samples.ts";
 import type { Cloud, Up } from "../cloud/cloud.ts";
 import { OWN_COLORS, type Settings, USUAL_SETTINGS } from "../settings/settings.ts";
+import { spreadOf } from "../cloud/spacing.ts";
 import { colorChoices } from "../view/colors.ts";
 import { indicesByStation } from "../../src/ts/formats/cloud-file.js";
 import type { Opened } from "../view/viewer.ts";
@@ -48,20 +49,17 @@ export function usableColor(color: string, cloud: Cloud, asked: boolean): { colo
   return { color: OWN_COLORS, notes };
 }
 
-/**
- * The usual settings for a cloud. `taken`: the direction that was up, if the file says so. `center`: a place in the
- * middle of the cloud.
- */
+/** The usual settings for a cloud. `taken`: the direction that was up, if the file says so. */
 export function usualLook(
   sample: Sample | null,
   name: string,
   taken: Up | undefined,
-  center: Cloud["center"],
+  cloud: Cloud,
 ): Pick<Settings, "size" | "fieldOfView" | "up"> {
   return {
     size: USUAL_SETTINGS.size,
     fieldOfView: sample?.fieldOfView ?? USUAL_SETTINGS.fieldOfView,
-    up: sample?.up ?? taken ?? (isOnMap(center) ? "z" : usualUp(name)),
+    up: sample?.up ?? taken ?? (isOnMap(cloud.center) ? "z" : (levelUp(cloud) ?? usualUp(name))),
   };
 }
 
@@ -76,7 +74,40 @@ function isOnMap([x, y, z]: Cloud["center"]): boolean {
 
 /** In files of scanners and surveyors z is up. In files of modelers y is up. */
 function usualUp(name: string): Up {
-  return /\.(ply|obj|gltf|glb)$/i.test(name) ? "y" : "z";
+  return /\.(ply|obj|gltf|glb)(\.gz)?$/i.test(name) ? "y" : "z";
+}
+
+/** Cells of this share of the cloud's diagonal are looked at from below. */
+const CELL = 1 / 64;
+/** Ground is level in this share of the cells, and this many times as large as what the other axis has. */
+const LEVEL = 0.5;
+const LARGER = 1.4;
+const LOOKED_AT = 200_000;
+
+/** The axis along which the cloud has level ground. `undefined`: neither, as with most things that are no place. */
+function levelUp({ local, count }: Cloud): Up | undefined {
+  const ends = [0, 1, 2].map((axis) => spreadOf(count, (i) => local[3 * i + axis]!));
+  const cell = CELL * Math.hypot(...ends.map(([low, high]) => high - low));
+  const [y, z] = [groundAlong(1), groundAlong(2)];
+  if (y.share >= LEVEL && y.area > LARGER * z.area) return "y";
+  return z.share >= LEVEL && z.area > LARGER * y.area ? "z" : undefined;
+
+  /** How many cells have their lowest point at the most frequent height, and their share. */
+  function groundAlong(axis: 1 | 2): { area: number; share: number } {
+    const lowest = new Map<number, number>();
+    for (let i = 0; i < count; i += Math.ceil(count / LOOKED_AT)) {
+      const at = (of: number) => Math.floor((local[3 * i + of]! - ends[of]![0]) / cell);
+      const place = at(0) * 4096 + at(3 - axis);
+      const height = at(axis);
+      if (height >= -1 && height < (lowest.get(place) ?? Infinity)) lowest.set(place, height);
+    }
+    const heights = new Map<number, number>();
+    for (const height of lowest.values()) {
+      for (const near of [height, height + 1]) heights.set(near, (heights.get(near) ?? 0) + 1);
+    }
+    const area = Math.max(0, ...heights.values());
+    return { area, share: area / lowest.size };
+  }
 }
 
 /** A place from which points were measured, and these points: it surely sees them. */

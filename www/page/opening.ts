@@ -5,13 +5,17 @@ import type { Panel } from "../panel/panel.ts";
 import { SamplePicker } from "../panel/sample-picker.ts";
 import type { Sample } from "../samples/samples.ts";
 import type { Address, Usual } from "../settings/address.ts";
-import { type Store, USUAL_SETTINGS } from "../settings/settings.ts";
+import type { Up } from "../cloud/cloud.ts";
+import { canLook, type Store, USUAL_SETTINGS } from "../settings/settings.ts";
 import type { Workshop } from "../tools/workshop.ts";
 import type { AskedView } from "../view/framing.ts";
 import type { Viewer } from "../view/viewer.ts";
 import { calibrate, chooseColumns, isLoss, type Notices, sentenceOf } from "./notices.ts";
-import { fromSample, type Source } from "./sources.ts";
+import { fromSample, nameOf, type Source } from "./sources.ts";
 import type { Status } from "./status.ts";
+
+/** The sides that may be up, in the order in which they are tried. */
+const UPS: readonly Up[] = ["z", "y", "-y"];
 
 /** The parts of the page that take part when a cloud is opened. */
 export interface Parts {
@@ -48,16 +52,30 @@ export class Opening {
   constructor(parts: Parts, usual: Sample) {
     this.#parts = parts;
     this.#usual = usual;
+    const turnUp = () => {
+      const { up } = parts.store.current;
+      parts.store.change({ up: UPS[(UPS.indexOf(up) + 1) % UPS.length]!, freeze: null });
+    };
     this.#picker = new SamplePicker((sample) => {
       const source = fromSample(sample);
       if (source.name) parts.address.choose(source.name);
       void this.open(source);
-    });
+    }, turnUp);
   }
 
   /** The cloud on screen. */
   get source(): Source | null {
     return this.#shown;
+  }
+
+  /** Says what the looks take the cloud to be. */
+  say(): void {
+    const { viewer, store, status } = this.#parts;
+    if (!viewer.cloud || !canLook(store.current) || store.current.looks === 0) return;
+    const { inquiry, cloud, answer } = viewer.scene;
+    if (answer.whole) return;
+    // A cloud that is put away meanwhile says nothing.
+    status.surface(inquiry.cloud, cloud, () => store.current).catch(() => undefined);
   }
 
   /** Gives up a cloud that is being loaded, and loads this one. */
@@ -146,7 +164,9 @@ export class Opening {
     panel.prepare(ready.opened.cloud);
     workshop.clear();
     viewer.show(ready.opened);
-    this.shownName = sample?.name ?? request.name;
+    // A file that could not be read is not open. The first column of several files is that of their names.
+    const read = request.kind === "files" ? Object.values(cloud.fields[0]!.labels!) : [request.name];
+    this.shownName = sample?.name ?? nameOf(read);
     this.#shown = source;
     workshop.begin(source.marks ?? null).then(
       (said) => {
@@ -159,8 +179,9 @@ export class Opening {
     panel.usual = this.usual = ready.usual;
     address.begin(insteadOf === undefined ? name : null, ready.usual);
     if (insteadOf !== undefined) status.error(insteadOf);
+    this.say();
     if (sample) this.#picker.showSample(sample);
-    else this.#picker.showOwn(request.name);
+    else this.#picker.showOwn(this.shownName);
   }
 
   #end(): void {

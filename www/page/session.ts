@@ -103,6 +103,9 @@ export async function startSession(wishes: Wishes, first: Source): Promise<void>
     open: (files, notes) => void opening.open(fromFiles(files, notes, limitsOf(wishes))),
     refuse: (sentence) => message.show(sentence),
   });
+  store.follow(({ surface, thickness, looks }, before) => {
+    if (surface !== before.surface || thickness !== before.thickness || looks !== before.looks) opening.say();
+  });
   bindLessons(viewer, store, storytelling, message, actions);
   const opened = wishes.story ? storytelling.tell(wishes.story) : opening.open(first);
   await opened;

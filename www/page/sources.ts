@@ -45,13 +45,14 @@ export function fromFiles(files: File[], notes: string[], limits: Limits): Sourc
   const request: Source["request"] =
     others.length === 0
       ? { kind: "file", name: file.name, file, skipNonFinite: false, ...limits }
-      : { kind: "files", name: nameOf(file, others), files, ...(limit !== undefined && { limit }) };
+      : { kind: "files", name: nameOf(files.map(({ name }) => name)), files, ...(limit !== undefined && { limit }) };
   return { request, sample: null, name: null, view: null, settings: {}, notes };
 }
 
-/** A name for several files, for use in a sentence. */
-function nameOf(file: File, others: readonly File[]): string {
-  return `${file.name} and ${others.length === 1 ? others[0]!.name : `${others.length} more files`}`;
+/** A name for one or more files, for use in a sentence. */
+export function nameOf([first, ...others]: readonly string[]): string {
+  if (others.length === 0) return first!;
+  return `${first} and ${others.length === 1 ? others[0]! : `${others.length} more files`}`;
 }
 
 /** The cloud that an address asks for. */

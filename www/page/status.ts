@@ -2,6 +2,19 @@ import type { Inversion } from "../settings/settings.ts";
 import { SETTINGS } from "../settings/table.ts";
 import { captionOf, foundBy, type Mapped, sentenceOf, type TimedView } from "../view/inquiry.ts";
 import { byId } from "../controls/controls.ts";
+import type { WorkerPointCloud } from "hidden-point-removal/worker";
+import type { Cloud } from "../cloud/cloud.ts";
+import type { Settings } from "../settings/settings.ts";
+import { measured, measuresOf } from "../tools/make.ts";
+
+const SURFACES = {
+  clean: "A clean surface",
+  noisy: "A noisy scan; its noise is removed before the looks",
+  layered: "A layered scan",
+};
+/** The thickness of layers in standard deviations of noise, beyond what clean clouds have, in spacings. */
+const LAYERS = 14;
+const CLEAN = 0.075;
 
 /** Milliseconds between two changes of the sentence. A sentence that stays for this time is announced. */
 const CALM = 800;
@@ -84,6 +97,20 @@ export class Status {
     this.#element.dataset["state"] = "ready";
     this.#last = { ...answer, total };
     this.describe(frozen);
+  }
+
+  /** Says what looks take the cloud to be, in `data-surface` and in one line. */
+  async surface(points: WorkerPointCloud, cloud: Cloud, settings: () => Settings): Promise<void> {
+    const [found, noise] = await Promise.all([points.surface, points.noise]);
+    const { surface, thickness } = settings();
+    const kind = surface === "auto" ? found : surface;
+    const { unit } = measuresOf(cloud);
+    // docs/LOOKS.md, "Layered".
+    const depth = thickness === "auto" ? LAYERS * (noise - CLEAN * points.spacing) : thickness;
+    const about = measured(Number(depth.toPrecision(1)), unit);
+    const behind = kind === "layered" && depth > 0 ? `; points up to about ${about} behind a surface are shown` : "";
+    this.#element.dataset["surface"] = kind;
+    for (const line of document.querySelectorAll(".found")) line.textContent = `${SURFACES[kind]}${behind}.`;
   }
 
   /** A map is drawn. The numbers of the last answer stay. */

@@ -11,7 +11,7 @@ import type { Viewer } from "../view/viewer.ts";
 import { bindVerbs } from "./verbs.ts";
 
 /** Settings whose only control is one row of buttons or one slider. The other controls have files of their own. */
-const CHOICES = ["hidden", "looks", "up", "theme"] as const;
+const CHOICES = ["hidden", "looks", "surface", "up", "theme"] as const;
 const SLIDING = ["size", "fieldOfView"] as const;
 
 /** Settings that change together with another one. With another direction up, a frozen view has no meaning. */
@@ -42,7 +42,7 @@ function idOf(name: SettingName): string {
 /** The settings in each folded section. */
 const SECTIONS: Record<string, (keyof Settings)[]> = {
   "look-section": ["color", "size", "fieldOfView", "up"],
-  "advanced-section": ["looks", "radius"],
+  "advanced-section": ["looks", "surface", "radius"],
 };
 
 /** Unfolds the sections with a setting that is not usual: the user must find what changes the picture. */
@@ -156,7 +156,11 @@ export class Panel {
     this.follow = bindRadius(store);
     bindSettings(store);
     const looks = byId("looks", HTMLFieldSetElement);
-    store.follow((now) => (looks.disabled = !canLook(now)));
+    const surface = byId("surface", HTMLFieldSetElement);
+    store.follow((now) => {
+      looks.disabled = !canLook(now);
+      surface.disabled = !canLook(now) || now.looks === 0;
+    });
     this.#color = bindColor(store);
     viewer.onLegend = this.#color.explain;
     const moves = new Moves(byId("view", HTMLCanvasElement), viewer, store, () => this.usual);
@@ -164,7 +168,7 @@ export class Panel {
     bindTheme(store, (theme) => viewer.setTheme(theme));
     unfoldUnusual(opened);
 
-    byId("reset").addEventListener("click", () => moves.reset());
+    for (const button of document.querySelectorAll(".reset")) button.addEventListener("click", () => moves.reset());
   }
 
   /** Prepares the panel for a cloud that is about to be shown. */

@@ -15,7 +15,11 @@ export class SamplePicker {
   /** The value of the entry that is on screen. */
   #shown: string | null = null;
 
-  constructor(onPick: (sample: Sample) => void) {
+  readonly #turn: () => void;
+
+  /** `turn`: makes another side of the cloud the upper one. */
+  constructor(onPick: (sample: Sample) => void, turn: () => void) {
+    this.#turn = turn;
     this.#select.append(...SAMPLES.map(({ name, label }) => new Option(label, name)));
     this.#thumbnails.append(
       ...SAMPLES.filter((sample) => sample.picture).map((sample) => thumbnail(sample, () => onPick(sample))),
@@ -30,7 +34,10 @@ export class SamplePicker {
     this.#removeOwn();
     this.#select.value = this.#shown = sample.name;
     this.#mark(sample.name);
-    for (const credit of this.#credits) credit.replaceChildren(...creditOf(sample));
+    for (const credit of this.#credits) {
+      credit.replaceChildren(...creditOf(sample));
+      credit.classList.remove("own");
+    }
   }
 
   showOwn(name: string): void {
@@ -42,7 +49,16 @@ export class SamplePicker {
     this.#own.hidden = false;
     this.#shown = "";
     this.#mark(null);
-    for (const credit of this.#credits) credit.replaceChildren();
+    for (const credit of this.#credits) {
+      const turn = document.createElement("button");
+      turn.type = "button";
+      turn.textContent = "Turn upright";
+      turn.addEventListener("click", this.#turn);
+      const found = document.createElement("span");
+      found.className = "found";
+      credit.replaceChildren(`${name} `, turn, " ", found);
+      credit.classList.add("own");
+    }
   }
 
   /** Goes back to the cloud on screen, after another one could not be opened. */

@@ -36,6 +36,9 @@ export type Radius = { rule: "auto" } | { exponent: number } | { length: number 
 /** How many looks make the answer when the camera rests (docs/LOOKS.md). 0: the operator of the paper. */
 export type Looks = 0 | 2 | 3;
 
+/** What looks take the cloud to be; `auto`: what the library finds. */
+export type SurfaceChoice = "auto" | "clean" | "noisy" | "layered";
+
 /** How points are flipped. The exponential's c is counted in spacings, so that it suits clouds of any size. */
 export type Inversion = "spherical" | { exponential: number | "auto" };
 

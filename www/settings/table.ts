@@ -22,6 +22,7 @@ import {
   MOST_EXPONENT,
   POINT_SIZE,
   type Radius,
+  type SurfaceChoice,
   type ThemeChoice,
   type Viewpoint,
 } from "./limits.ts";
@@ -88,6 +89,14 @@ export const SETTINGS = {
     values: "`auto` or a positive length",
     usual: "auto",
     otherwise: "it follows from the noise of the cloud",
+    ofCloud: true,
+  }),
+  surface: setting<SurfaceChoice>({
+    parameter: "surface",
+    ...oneOf<SurfaceChoice>("auto", "clean", "noisy", "layered"),
+    usual: "auto",
+    called: "kind of surface",
+    otherwise: "it is found from the points",
     ofCloud: true,
   }),
   inversion: setting<Inversion>({

@@ -131,9 +131,11 @@ export function wayBetween({ positions }: Placed, from: number, to: number, { sc
   return scale.map((length, axis) => length * (positions[3 * to + axis]! - positions[3 * from + axis]!));
 }
 
-/** A length with six digits: no scanner is more precise. */
+/** A length to the centimeter, or with three digits if that is more. Without a unit it has six digits. */
 export function measured(value: number, unit: Unit | null): string {
-  const digits = Number(value.toPrecision(6));
+  const decimals = unit ? Math.max(0, 2 + Math.round(Math.log10(unit.meters))) : 0;
+  const three = value === 0 ? 0 : 2 - Math.floor(Math.log10(Math.abs(value)));
+  const digits = unit ? Number(value.toFixed(Math.min(20, Math.max(decimals, three)))) : Number(value.toPrecision(6));
   const text =
     Math.abs(digits) >= 1e7 || Math.abs(digits) < 1e-6
       ? String(digits)

@@ -14,12 +14,20 @@ export class Measure implements Tool {
   readonly uses = "clicks";
   readonly #bench: Bench;
   readonly #output = byId("measure-result");
+  readonly #undo = byId("measure-undo", HTMLButtonElement);
   readonly #remove = byId("measure-clear", HTMLButtonElement);
   #from: { index: number; mark: Mark } | null = null;
   #lines: { ends: readonly [number, number]; mark: Mark }[] = [];
 
   constructor(bench: Bench) {
     this.#bench = bench;
+    this.#undo.addEventListener("click", () => {
+      this.#lines.pop()?.mark.remove();
+      const last = this.#lines.at(-1);
+      if (last) this.#say(...last.ends);
+      else this.clear();
+      this.#bench.changed();
+    });
     this.#remove.addEventListener("click", () => {
       this.clear();
       byId("view").focus();
@@ -53,21 +61,27 @@ export class Measure implements Tool {
 
   /** Shows the distance between two points. */
   measure(from: number, to: number): void {
-    const { viewer, marks } = this.#bench;
+    const mark = this.#bench.marks.line(from, to, this.#say(from, to));
+    this.#lines.push({ ends: [from, to], mark });
+    this.#undo.hidden = this.#remove.hidden = false;
+    this.#bench.changed();
+  }
+
+  /** Shows a distance in the card, and returns its text. */
+  #say(from: number, to: number): string {
+    const { viewer } = this.#bench;
     const measures = measuresOf(viewer.cloud!);
     const { unit } = measures;
     const way = wayBetween(viewer.scene, from, to, measures);
     const distance = Math.hypot(...way);
     const { horizontal, height } = split(way, this.#bench.upward());
-    this.#lines.push({ ends: [from, to], mark: marks.line(from, to, measured(distance, unit)) });
     this.#output.replaceChildren(
       row("Distance", measured(distance, unit)),
       row("Horizontal", measured(horizontal, unit)),
       row("Height difference", measured(height, unit)),
     );
     this.#output.dataset["distance"] = String(distance);
-    this.#remove.hidden = false;
-    this.#bench.changed();
+    return measured(distance, unit);
   }
 
   cancel(): boolean {
@@ -86,7 +100,7 @@ export class Measure implements Tool {
     for (const { mark } of this.#lines.splice(0)) mark.remove();
     this.#invite();
     delete this.#output.dataset["distance"];
-    this.#remove.hidden = true;
+    this.#undo.hidden = this.#remove.hidden = true;
     this.#bench.changed();
   }
 

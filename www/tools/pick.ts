@@ -40,7 +40,10 @@ export class Pick implements Tool {
       ...["x", "y", "z"].map((axis, i) => row(axis, place[i]!)),
       row("index", String(indexInFile(scene.cloud, index))),
       ...(color ? [row("color", color.join(" "))] : []),
-      ...fields.map((field) => row(field.name.replaceAll("_", " "), fieldText(field, index))),
+      // A column that is 0 everywhere says nothing.
+      ...fields
+        .filter(({ values }) => values.some((value) => value !== 0))
+        .map((field) => row(field.name.replaceAll("_", " "), fieldText(field, index))),
     );
     this.#output.dataset["index"] = String(index);
     this.#output.dataset["place"] = place.join(", ");

@@ -42,6 +42,12 @@ export interface Tool {
   clear?(): void;
 }
 
+/** Whether a key is meant for a text field or a list. */
+export function isTyping({ target }: Event): boolean {
+  const isText = target instanceof HTMLInputElement && !["radio", "checkbox", "range"].includes(target.type);
+  return isText || target instanceof HTMLSelectElement;
+}
+
 /** The sheet with all keys. A modal dialog keeps the focus, closes by Escape and gives the focus back by itself. */
 export function bindKeysSheet(): void {
   const sheet = byId("keys", HTMLDialogElement);
@@ -61,8 +67,6 @@ export function bindKeysSheet(): void {
     if (event.target === sheet) sheet.close();
   });
   document.addEventListener("keydown", (event) => {
-    const typing =
-      event.target instanceof HTMLInputElement && !["radio", "checkbox", "range"].includes(event.target.type);
-    if (isKeyOf("sheet", event) && !typing && !event.ctrlKey && !event.metaKey) toggle();
+    if (isKeyOf("sheet", event) && !isTyping(event) && !event.ctrlKey && !event.metaKey) toggle();
   });
 }

@@ -10,7 +10,7 @@ import type { Viewer } from "../view/viewer.ts";
 import { Compare } from "./compare.ts";
 import { Export, type ExportActions } from "./export.ts";
 import { Information, ScaleBar } from "./information.ts";
-import { type Bench, bindKeysSheet, type Tool } from "./tool.ts";
+import { type Bench, bindKeysSheet, isTyping, type Tool } from "./tool.ts";
 import { Label } from "./label.ts";
 import { linkOf, type Marked, noMarks, restore } from "./link.ts";
 import { Marks } from "./marks.ts";
@@ -158,9 +158,12 @@ export class Tools {
 
   #bindKeys(viewer: Viewer): void {
     const actions: Action[] = ["compare", "middle", ...this.#tools.map(({ name }) => name)];
-    this.#canvas.addEventListener("keydown", (event) => {
+    document.addEventListener("keydown", (event) => {
       const found = pressed(event, actions);
-      if (!found || event.repeat || !byId("tools").checkVisibility()) return;
+      if (!found || event.repeat || isTyping(event) || document.querySelector("dialog[open], #story")) return;
+      if (found.action === "middle" && event.target !== this.#canvas) return;
+      // The key opens the drawer, too.
+      if (found.action !== "compare" && !byId("tools").checkVisibility()) byId("drawer").click();
       if (found.action === "compare") {
         this.#compare.toggle();
       } else if (found.action !== "middle") {

@@ -13,6 +13,7 @@ import {
   type Looks,
   type Radius,
   type Settings,
+  type SurfaceChoice,
   type Viewpoint,
 } from "../settings/settings.ts";
 import type { CloudPoints } from "./points.ts";
@@ -26,6 +27,8 @@ export interface Method {
   looks: Looks;
   /** Only with looks. Undefined: it follows from the noise of the cloud. */
   thickness?: number | undefined;
+  /** Only with looks. Undefined: what the library finds. */
+  surface?: Exclude<SurfaceChoice, "auto"> | undefined;
 }
 
 /** The question of what can be seen. */
@@ -67,10 +70,16 @@ export function operatorOf({ radius, inversion }: Settings): Method {
 
 /** How the final answer is found with these settings. */
 export function methodOf(settings: Settings): Method {
-  const { looks, thickness } = settings;
+  const { looks, thickness, surface } = settings;
   const method = operatorOf(settings);
   return looks > 0 && canLook(settings)
-    ? { ...method, radius: null, looks, ...(thickness !== "auto" && { thickness }) }
+    ? {
+        ...method,
+        radius: null,
+        looks,
+        ...(thickness !== "auto" && { thickness }),
+        ...(surface !== "auto" && { surface }),
+      }
     : method;
 }
 
@@ -161,7 +170,7 @@ export class Inquiry {
   }
 
   /** What the library is asked for. */
-  options({ radius, inversion, looks, thickness }: Method): VisibilityOptions {
+  options({ radius, inversion, looks, thickness, surface }: Method): VisibilityOptions {
     return {
       ...(radius === null
         ? {}
@@ -171,7 +180,7 @@ export class Inquiry {
             ? { radius: radius.length }
             : radius),
       ...(inversion === "spherical" ? {} : { inversion: this.#inversion(inversion) }),
-      ...(looks === 0 ? {} : { looks, thickness }),
+      ...(looks === 0 ? {} : { looks, thickness, surface }),
     };
   }
 
@@ -208,7 +217,7 @@ export class Inquiry {
       return;
     }
     const method = this.#method;
-    const hull: Method = { ...method, radius: { rule: "auto" }, looks: 0, thickness: undefined };
+    const hull: Method = { ...method, radius: { rule: "auto" }, looks: 0, thickness: undefined, surface: undefined };
     const question = { viewpoint: at, method: method.looks > 0 && kind === "operator" ? hull : method };
     const [asked, note] = [performance.now() - milliseconds, this.#refused?.note ?? null];
     this.answer = this.told({ question, visibility, note, kind: kind as TimedView["kind"], asked, milliseconds });

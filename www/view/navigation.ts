@@ -133,7 +133,7 @@ export class Navigation {
     this.#shareTouch();
     const distance = at.distanceTo(target);
     controls.minDistance = distance / 1000;
-    controls.maxDistance = distance * 1000;
+    controls.maxDistance = distance * 30;
     controls.update();
     // The controls compute with angles and are a few bits off. The answer is for exactly the place that was asked for.
     this.#camera.position.copy(at);
