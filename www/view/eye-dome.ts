@@ -72,22 +72,31 @@ const fragmentShader = /* glsl */ `
     return texelFetch(colors, pixel, 0).rgb * mix(${DARKEST}, 1.0, shade);
   }
 
-  /* A gap of few pixels with a surface on most sides of it is closed: the pixel beside it that stands for it. */
+  /*
+   * A gap with a surface on most sides of it is closed if it is of few pixels, or smaller than the points around it: the
+   * pixel beside it that stands for it.
+   */
   ivec2 closed(ivec2 pixel) {
     ivec2 last = textureSize(depths, 0) - 1;
-    ivec2 found = pixel;
-    float nearest = 1.0;
-    int sides = 0;
-    for (int i = 0; i < 8; i++) {
-      ivec2 there = clamp(ivec2(round(vec2(pixel) + 2.0 * AROUND[i])), ivec2(0), last);
-      float depth = texelFetch(depths, there, 0).r;
-      if (depth < 1.0) sides++;
-      if (depth < nearest) {
-        nearest = depth;
-        found = there;
+    for (float ring = 8.0; ring > 1.0; ring /= 2.0) {
+      ivec2 found = pixel;
+      float nearest = 1.0;
+      int sides = 0;
+      for (int i = 0; i < 8; i++) {
+        ivec2 there = clamp(ivec2(round(vec2(pixel) + ring * AROUND[i])), ivec2(0), last);
+        float depth = texelFetch(depths, there, 0).r;
+        if (depth < 1.0) sides++;
+        if (depth < nearest) {
+          nearest = depth;
+          found = there;
+        }
       }
+      float width = ${SOFT_FROM.toFixed(1)} * nearness(nearest) * softness / (planes.x * planes.y);
+      if (sides > 5 && (ring == 2.0 || ring < width)) return found;
+      // Most of the background is far from any surface.
+      if (sides == 0 && ring == 8.0) return pixel;
     }
-    return sides > 5 ? found : pixel;
+    return pixel;
   }
 
   void main() {
