@@ -121,7 +121,7 @@ test("several chosen files are one cloud; a broken one is named, and the others 
   const message = (await page.locator("#message p").textContent())!;
   expect(message).toContain("broken.ply");
   expect(message).not.toContain("west.las");
-  expect(await page.locator("#own").textContent()).toBe("west.las and 2 more files");
+  expect(await page.locator("#own").textContent()).toBe("west.las and east.las");
   await unfold(page, "Information");
   const info = page.locator("#info");
   await expect.poll(() => info.textContent()).toContain("WGS 84 / UTM zone 32N");

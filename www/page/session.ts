@@ -117,7 +117,7 @@ function coveredHeight(): number {
   const { bottom, width } = byId("view").getBoundingClientRect();
   const heights = ["verbs", "tool-card", "tool-bar"].map((id) => {
     const box = byId(id).getBoundingClientRect();
-    return box.width > width / 2 ? bottom - box.top : 0;
+    return box.width > 0.75 * width ? bottom - box.top : 0;
   });
   return Math.max(0, ...heights);
 }
