@@ -70,6 +70,14 @@ for (const [name, query, act] of [
   ["measure", "?story=measure", press("Next", 2)],
   ["label", "?story=label", press("Next")],
   ["survey", "?story=survey", press("Next")],
+  [
+    "right",
+    "?turn=0",
+    async (page: Page) => {
+      await press("How right is it?")(page);
+      await page.locator("#right canvas").first().waitFor({ timeout: 120_000 });
+    },
+  ],
 ] as const) {
   const image = await shot(query, { viewport: { width: 1000, height: 640 } }, act);
   await sharp(image)
