@@ -52,7 +52,7 @@ test("a stranger sees the cloud turn, a line sweep over it, a caption with its n
     )
     .toBe(true);
   expect((await status(page)).total).toBe(300_000);
-  expect(await controls(page)).toBeLessThanOrEqual(19);
+  expect(await controls(page)).toBeLessThanOrEqual(20);
   expect(await page.locator("#panel").evaluate((panel) => panel.getBoundingClientRect().width)).toBeLessThan(2);
   // It goes on turning, and maps draw it.
   const before = await status(page);
