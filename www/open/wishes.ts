@@ -2,7 +2,7 @@ import type { LoadRequest } from "../loaders/index.ts";
 import type { Sample } from "../samples/samples.ts";
 import type { Cloud, Up } from "../cloud/cloud.ts";
 import { OWN_COLORS, type Settings, USUAL_SETTINGS } from "../settings/settings.ts";
-import { spreadOf } from "../cloud/spacing.ts";
+import { spreadOf } from "../cloud/prepare.ts";
 import { colorChoices } from "../view/colors.ts";
 import { indicesByStation } from "../../src/ts/formats/cloud-file.js";
 import type { Opened } from "../view/viewer.ts";
