@@ -3,7 +3,7 @@
 use alloc::vec::Vec;
 
 use crate::answers::threads::Threads;
-use crate::base::allocation::{copied, filled, reserve, with_capacity};
+use crate::base::allocation::{copied, reserve, with_capacity};
 use crate::base::error::{Error, in_range};
 use crate::cloud::point_cloud::PointCloud;
 use crate::view::camera::Seat;
@@ -119,18 +119,28 @@ impl Threads<'_> {
 /// # Ok::<(), hidden_point_removal::Error>(())
 /// ```
 #[derive(Clone, Debug)]
-pub struct Choice<'a> {
-    placing: Placing<'a>,
+pub struct Choice {
+    /// The largest number of viewpoints.
+    count: usize,
+    share: f64,
+    weights: Option<Vec<f64>>,
+    /// The last known gain of each candidate.
     gains: Vec<f64>,
+    /// How many were chosen when the gain was measured.
+    measured: Vec<usize>,
+    seen: Vec<bool>,
     seen_by_any: Vec<bool>,
+    /// The weight that some candidate sees, known when the choice begins.
+    reachable: Option<f64>,
+    placement: Placement,
 }
 
-impl<'a> Choice<'a> {
+impl Choice {
     /// A choice without candidates.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for the count or the share of `placing`.
-    pub fn new(placing: &Placing<'a>) -> Result<Self, Error> {
+    /// [`Error::OutOfRange`] for the numbers of `placing`; [`Error::OutOfMemory`].
+    pub fn new(placing: &Placing) -> Result<Self, Error> {
         in_range(
             "count",
             placing.count.map_or(1.0, |n| n as f64),
@@ -143,43 +153,37 @@ impl<'a> Choice<'a> {
             f64::MIN_POSITIVE,
             1.0,
         )?;
-        let (gains, seen_by_any) = (Vec::new(), Vec::new());
+        for &weight in placing.weights.unwrap_or_default() {
+            in_range("weights", weight, 0.0, f64::MAX)?;
+        }
         Ok(Self {
-            placing: *placing,
-            gains,
-            seen_by_any,
+            count: placing.count.unwrap_or(usize::MAX),
+            share: placing.share.unwrap_or(1.0),
+            weights: placing.weights.map(copied).transpose()?,
+            gains: Vec::new(),
+            measured: Vec::new(),
+            seen: Vec::new(),
+            seen_by_any: Vec::new(),
+            reachable: None,
+            placement: Placement::default(),
         })
     }
 
     /// Looks from the next candidates. Points may be appended between.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for the weights; otherwise as [`PointCloud::coverage`].
+    /// [`Error::OutOfRange`] for the number of weights; otherwise as [`PointCloud::coverage`].
     pub fn look<S: Copy + Into<Seat> + Sync>(
         &mut self,
         cloud: Threads<'_>,
         group: &[S],
         options: &Options,
     ) -> Result<(), Error> {
-        if let Some(weights) = self.placing.weights {
-            let len = cloud.len() as f64;
-            in_range("the number of weights", weights.len() as f64, len, len)?;
-            for &weight in weights {
-                in_range("weights", weight, 0.0, f64::MAX)?;
-            }
-        }
-        options.check(QuestionKind::PlaceViewpoints)?;
         let first = self.gains.len();
-        lengthen(&mut self.gains, first + group.len(), 0.0)?;
-        lengthen(&mut self.seen_by_any, cloud.len(), false)?;
-        let weight = weights(self.placing);
+        self.reserve(cloud.len(), first + group.len())?;
+        options.check(QuestionKind::PlaceViewpoints)?;
         cloud.each_view(cloud.count, group, options, &mut |number, seen| {
-            let indices = seen.indices();
-            self.gains[first + number] =
-                indices.iter().fold(0.0, |sum, &index| sum + weight(index));
-            for &index in indices {
-                self.seen_by_any[index as usize] = true;
-            }
+            self.take(first + number, seen.indices());
         })
     }
 
@@ -201,71 +205,106 @@ impl<'a> Choice<'a> {
             known,
         )?;
         self.look::<S>(cloud, &[], options)?;
-        let (count, share) = (
-            self.placing.count.unwrap_or(usize::MAX),
-            self.placing.share.unwrap_or(1.0),
-        );
-        let weight = weights(self.placing);
-        let total = |marks: &[bool]| {
-            let marked = (0u32..).zip(marks).filter(|(_, mark)| **mark);
-            marked.fold(0.0, |sum, (index, _)| sum + weight(index))
-        };
-        let Self {
-            mut gains,
-            mut seen_by_any,
-            ..
-        } = self;
-        let reachable = total(&seen_by_any);
-        let mut seen: Vec<bool> = filled(cloud.len(), false)?;
-        let mut measured: Vec<usize> = filled(candidates.len(), 0)?;
-        let mut placement = Placement::default();
         // The indices that some candidates see.
         let mut views: Vec<(usize, Vec<u32>)> = Vec::new();
-        while placement.chosen.len() < count {
+        loop {
+            let view_of = |wanted| {
+                let own = views.iter().find(|(number, _)| *number == wanted);
+                own.map(|(_, view)| view.as_slice())
+            };
+            if self.go_on(&view_of).is_none() {
+                return self.placed();
+            }
+            let asked = highest_of(&self.gains, cloud.count)?;
+            views = cloud.views_of(cloud.count, &asked, candidates, options)?;
+        }
+    }
+
+    /// Room for a cloud of so many indices, and so many candidates.
+    pub(crate) fn reserve(&mut self, len: usize, candidates: usize) -> Result<(), Error> {
+        if let Some(weights) = &self.weights {
+            in_range(
+                "the number of weights",
+                weights.len() as f64,
+                len as f64,
+                len as f64,
+            )?;
+        }
+        lengthen(&mut self.gains, candidates, 0.0)?;
+        lengthen(&mut self.measured, candidates, 0)?;
+        lengthen(&mut self.seen, len, false)?;
+        lengthen(&mut self.seen_by_any, len, false)
+    }
+
+    /// Takes the first view of a candidate: the indices that it sees.
+    pub(crate) fn take(&mut self, candidate: usize, view: &[u32]) {
+        self.gains[candidate] = self.gain(view);
+        for &index in view {
+            self.seen_by_any[index as usize] = true;
+        }
+    }
+
+    /// Chooses as far as the known views allow. Returns the candidate whose view is needed to go on: none at the end.
+    pub(crate) fn go_on<'v>(
+        &mut self,
+        view_of: &dyn Fn(usize) -> Option<&'v [u32]>,
+    ) -> Option<usize> {
+        let reachable = match self.reachable {
+            Some(reachable) => reachable,
+            None => *self.reachable.insert(self.total(&self.seen_by_any)),
+        };
+        while self.placement.chosen.len() < self.count {
             // With a share of 1, the choice ends when nothing is gained: sums in another order may
             // differ.
-            if share < 1.0 && total(&seen) >= share * reachable {
-                break;
+            if self.share < 1.0 && self.total(&self.seen) >= self.share * reachable {
+                return None;
             }
-            let Some(best) = highest(&gains) else {
-                break;
-            };
-            if views.iter().all(|(number, _)| *number != best) {
-                let asked = highest_of(&gains, cloud.count)?;
-                views = cloud.views_of(cloud.count, &asked, candidates, options)?;
-            }
-            let Some((_, view)) = views.iter().find(|(number, _)| *number == best) else {
-                break;
+            let best = highest(&self.gains)?;
+            let Some(view) = view_of(best) else {
+                return Some(best);
             };
             // Sums run over ascending indices, so rounding keeps their order, too.
-            if measured[best] < placement.chosen.len() {
-                let new = view.iter().filter(|&&index| !seen[index as usize]);
-                gains[best] = new.fold(0.0, |sum, &index| sum + weight(index));
-                measured[best] = placement.chosen.len();
-                if highest(&gains) != Some(best) {
+            if self.measured[best] < self.placement.chosen.len() {
+                self.gains[best] = self.gain(view);
+                self.measured[best] = self.placement.chosen.len();
+                if highest(&self.gains) != Some(best) {
                     continue;
                 }
             }
             for &index in view {
-                seen[index as usize] = true;
+                self.seen[index as usize] = true;
                 // Points may have been appended since the first view.
-                seen_by_any[index as usize] = true;
+                self.seen_by_any[index as usize] = true;
             }
-            placement.chosen.push(best);
-            placement.gains.push(gains[best]);
-            gains[best] = 0.0;
+            self.placement.chosen.push(best);
+            self.placement.gains.push(self.gains[best]);
+            self.gains[best] = 0.0;
         }
-        placement.seen = marked(&seen, true)?;
-        placement.unseen = marked(&seen_by_any, false)?;
+        None
+    }
+
+    /// What was chosen.
+    pub(crate) fn placed(&mut self) -> Result<Placement, Error> {
+        let mut placement = core::mem::take(&mut self.placement);
+        placement.seen = marked(&self.seen, true)?;
+        placement.unseen = marked(&self.seen_by_any, false)?;
         Ok(placement)
     }
-}
 
-fn weights<'a>(placing: Placing<'a>) -> impl Fn(u32) -> f64 + 'a {
-    move |index| {
-        placing
-            .weights
-            .map_or(1.0, |weights| weights[index as usize])
+    fn weight(&self, index: u32) -> f64 {
+        let weights = self.weights.as_ref();
+        weights.map_or(1.0, |weights| weights[index as usize])
+    }
+
+    /// The weight that a view adds.
+    fn gain(&self, view: &[u32]) -> f64 {
+        let new = view.iter().filter(|&&index| !self.seen[index as usize]);
+        new.fold(0.0, |sum, &index| sum + self.weight(index))
+    }
+
+    fn total(&self, marks: &[bool]) -> f64 {
+        let marked = (0u32..).zip(marks).filter(|(_, mark)| **mark);
+        marked.fold(0.0, |sum, (index, _)| sum + self.weight(index))
     }
 }
 

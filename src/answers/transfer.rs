@@ -14,6 +14,7 @@ use crate::answers::threads::Threads;
 use crate::base::allocation::{copied, filled, push, reserve, with_capacity};
 use crate::base::error::{Error, in_range};
 use crate::base::real::floor;
+use crate::base::sort::{Keyed, ordered, sort_keyed};
 use crate::cloud::point_cloud::PointCloud;
 use crate::view::camera::Camera;
 use crate::view::options::Options;
@@ -188,13 +189,24 @@ pub struct Transfer {
     observed: Vec<Observed>,
 }
 
+/// What a camera sees: the points, where they are in the image, how deep, and the directions from them to the camera.
+pub(crate) struct Shown<'a> {
+    pub indices: &'a [u32],
+    pub pixels: &'a [[f32; 2]],
+    pub depths: &'a [f32],
+    /// For weights by angle.
+    pub towards: &'a [[f32; 3]],
+    /// For weights by score, one for each index.
+    pub scores: &'a [f32],
+}
+
 /// One pass over the values frees a block after another, so that they are not in memory twice.
 const BLOCK: usize = 1024;
 
 /// The values of one camera.
 struct Observed {
     indices: Vec<u32>,
-    weights: Vec<f32>,
+    weights: Vec<f64>,
     rows: Kept,
 }
 
@@ -234,6 +246,23 @@ impl Transfer {
     /// [`Error::OutOfRange`] for an image of another size, or of another number of channels than the one before;
     /// [`Error::OutOfMemory`].
     pub fn add(&mut self, camera: &Camera, view: &CameraView, image: &Image) -> Result<(), Error> {
+        let shown = Shown {
+            indices: view.visibility.indices(),
+            pixels: &view.pixels,
+            depths: &view.depths,
+            towards: &view.towards,
+            scores: view.visibility.scores(),
+        };
+        self.take(camera, &shown, image)
+    }
+
+    /// The same for the parts of an answer.
+    pub(crate) fn take(
+        &mut self,
+        camera: &Camera,
+        view: &Shown,
+        image: &Image,
+    ) -> Result<(), Error> {
         let size = camera.width * camera.height * image.channels as f64;
         in_range(
             "the size of an image",
@@ -261,7 +290,7 @@ impl Transfer {
         };
         let mut observed = Observed::like(&image.pixels, self.how.sampling);
         let mut row: Vec<f64> = filled(self.channels, 0.0)?;
-        for (k, &index) in view.visibility.indices().iter().enumerate() {
+        for (k, &index) in view.indices.iter().enumerate() {
             let [u, v] = view.pixels[k].map(f64::from);
             let is_given = match self.how.sampling {
                 Sampling::Nearest => raster.nearest(floor(u), floor(v), &mut row),
@@ -281,12 +310,12 @@ impl Transfer {
                     -ahead.dot(DVec3::from_array(towards))
                 }
                 Weights::Score => {
-                    let scores = view.visibility.scores();
-                    scores.get(index as usize).copied().unwrap_or(0.0).into()
+                    let score = view.scores.get(index as usize);
+                    score.copied().unwrap_or(0.0).into()
                 }
             };
             if self.needs_all() {
-                observed.push(index, weight as f32, &row)?;
+                observed.push(index, weight, &row)?;
             } else {
                 self.merge(index as usize, weight, &row)?;
             }
@@ -344,27 +373,10 @@ impl Transfer {
         } else {
             Values::Singles(with_capacity(count)?)
         };
-        if self.needs_all() {
-            self.merge_observed(channels, &mut values)?;
-        } else {
-            let blocks = core::mem::take(&mut self.rows);
-            for (number, block) in blocks.into_iter().enumerate() {
-                for (k, row) in block.chunks(channels).enumerate() {
-                    let index = number * BLOCK + k;
-                    let total = self.weights[index];
-                    let is_mean = self.how.merge == Merge::Mean && total > 0.0;
-                    let of = |value: f64| match self.seen[index] {
-                        0 => f64::NAN,
-                        _ if is_mean => value / total,
-                        _ => value,
-                    };
-                    row.iter().for_each(|&value| values.push(of(value)));
-                }
-                let filled = (number * BLOCK + BLOCK).min(self.seen.len());
-                values.fill(filled * channels);
-            }
-        }
-        values.fill(count);
+        self.rows(&mut |block| match &mut values {
+            Values::Singles(values) => values.extend(block.iter().map(|&value| value as f32)),
+            Values::Doubles(values) => values.extend(block),
+        })?;
         Ok(Transferred {
             values,
             channels,
@@ -372,8 +384,37 @@ impl Transfer {
         })
     }
 
-    fn merge_observed(&self, channels: usize, values: &mut Values) -> Result<(), Error> {
-        // The entries of each index, in the order of the cameras.
+    /// Gives the merged values of one block of indices after another away. Returns how many cameras gave each.
+    pub(crate) fn rows(&mut self, give: &mut dyn FnMut(&[f64])) -> Result<&[u32], Error> {
+        let channels = self.channels.max(1);
+        let entries = self.entries()?;
+        let mut order: Vec<Keyed> = Vec::new();
+        for (number, seen) in self.seen.chunks(BLOCK).enumerate() {
+            let start = number * BLOCK;
+            let mut block = match self.rows.get_mut(number) {
+                Some(rows) if !rows.is_empty() => core::mem::take(rows),
+                _ => filled(seen.len() * channels, f64::NAN)?,
+            };
+            for (k, row) in block.chunks_mut(channels).enumerate() {
+                if seen[k] == 0 {
+                    row.fill(f64::NAN);
+                } else if self.needs_all() {
+                    self.merge_observed(entries.of(start + k), &mut order, row)?;
+                } else if self.how.merge == Merge::Mean && self.weights[start + k] > 0.0 {
+                    let total = self.weights[start + k];
+                    row.iter_mut().for_each(|sum| *sum /= total);
+                }
+            }
+            give(&block);
+        }
+        Ok(&self.seen)
+    }
+
+    /// The kept values of each index.
+    fn entries(&self) -> Result<Entries, Error> {
+        if !self.needs_all() {
+            return Ok(Entries::default());
+        }
         let mut starts: Vec<usize> = with_capacity(self.seen.len() + 1)?;
         let mut total = 0;
         for &count in &self.seen {
@@ -389,56 +430,80 @@ impl Transfer {
                 next[index as usize] += 1;
             }
         }
-        let most = self.seen.iter().copied().max().unwrap_or(0) as usize;
-        let mut order: Vec<(f64, f64)> = with_capacity(most)?;
-        for ends in starts.windows(2) {
-            let own = &entries[ends[0]..ends[1]];
-            let weight = |&(camera, k): &(u32, u32)| {
-                f64::from(self.observed[camera as usize].weights[k as usize])
-            };
-            let at = |&(camera, k): &(u32, u32), channel: usize| {
-                let rows = &self.observed[camera as usize].rows;
-                rows.get(k as usize * channels + channel)
-            };
-            if own.is_empty() {
-                values.fill(values.len() + channels);
-            } else if self.how.merge == Merge::Median {
-                for channel in 0..channels {
-                    order.clear();
-                    order.extend(own.iter().map(|entry| (at(entry, channel), weight(entry))));
-                    order.sort_by(|a, b| a.0.total_cmp(&b.0));
-                    values.push(median(&order));
-                }
-            } else {
-                let equal = |a, b| (0..channels).all(|channel| at(a, channel) == at(b, channel));
-                let votes = |entry| {
-                    let same = own.iter().filter(|other| equal(entry, other));
-                    same.fold(0.0, |sum, other| sum + weight(other))
-                };
-                let mut best = (&own[0], votes(&own[0]));
-                for entry in &own[1..] {
-                    let votes = votes(entry);
-                    if votes > best.1 {
-                        best = (entry, votes);
-                    }
-                }
-                (0..channels).for_each(|channel| values.push(at(best.0, channel)));
+        Ok(Entries { starts, entries })
+    }
+
+    /// Merges the values of one index, which are in the order of the cameras.
+    fn merge_observed(
+        &self,
+        own: &[(u32, u32)],
+        order: &mut Vec<Keyed>,
+        row: &mut [f64],
+    ) -> Result<(), Error> {
+        let channels = row.len();
+        let weight = |&(camera, k): &(u32, u32)| self.observed[camera as usize].weights[k as usize];
+        let at = |&(camera, k): &(u32, u32), channel: usize| {
+            let rows = &self.observed[camera as usize].rows;
+            rows.get(k as usize * channels + channel)
+        };
+        if self.how.merge == Merge::Median {
+            order.clear();
+            reserve(order, own.len())?;
+            for (channel, value) in row.iter_mut().enumerate() {
+                order.clear();
+                // Adding 0 turns -0 into 0.
+                let key = |entry| ordered(at(entry, channel) + 0.0);
+                order.extend((0..).zip(own).map(|(number, entry)| (key(entry), number)));
+                sort_keyed(order);
+                *value = median(order, &|number| {
+                    let entry = &own[number as usize];
+                    (at(entry, channel), weight(entry))
+                });
+            }
+            return Ok(());
+        }
+        let equal = |a, b| (0..channels).all(|channel| at(a, channel) == at(b, channel));
+        let votes = |entry| {
+            let same = own.iter().filter(|other| equal(entry, other));
+            same.fold(0.0, |sum, other| sum + weight(other))
+        };
+        let mut best = (&own[0], votes(&own[0]));
+        for entry in &own[1..] {
+            let votes = votes(entry);
+            if votes > best.1 {
+                best = (entry, votes);
             }
         }
+        (row.iter_mut().enumerate()).for_each(|(channel, value)| *value = at(best.0, channel));
         Ok(())
+    }
+}
+
+/// The kept values of each index: the number of the camera, and the place among its values.
+#[derive(Default)]
+struct Entries {
+    starts: Vec<usize>,
+    entries: Vec<(u32, u32)>,
+}
+
+impl Entries {
+    fn of(&self, index: usize) -> &[(u32, u32)] {
+        &self.entries[self.starts[index]..self.starts[index + 1]]
     }
 }
 
 /// The value, of sorted ones with their weights, at which half of the weight is reached; between two values if it is
 /// reached exactly there.
-fn median(sorted: &[(f64, f64)]) -> f64 {
-    let half = sorted.iter().fold(0.0, |sum, (_, weight)| sum + weight) / 2.0;
+fn median(sorted: &[Keyed], of: &dyn Fn(u32) -> (f64, f64)) -> f64 {
+    let total = sorted.iter().fold(0.0, |sum, item| sum + of(item.1).1);
+    let half = total / 2.0;
     let mut sum = 0.0;
-    for (k, &(value, weight)) in sorted.iter().enumerate() {
+    for (k, &(_, number)) in sorted.iter().enumerate() {
+        let (value, weight) = of(number);
         sum += weight;
         match sorted.get(k + 1) {
             Some(_) if sum < half => {}
-            Some(&(next, _)) if sum == half => return 0.5 * value + 0.5 * next,
+            Some(&(_, next)) if sum == half => return 0.5 * value + 0.5 * of(next).0,
             _ => return value,
         }
     }
@@ -458,7 +523,7 @@ impl Observed {
         }
     }
 
-    fn push(&mut self, index: u32, weight: f32, row: &[f64]) -> Result<(), Error> {
+    fn push(&mut self, index: u32, weight: f64, row: &[f64]) -> Result<(), Error> {
         push(&mut self.indices, index)?;
         push(&mut self.weights, weight)?;
         match &mut self.rows {
@@ -495,30 +560,6 @@ impl Pixels<'_> {
             Self::Bytes(numbers) => numbers.len(),
             Self::Singles(numbers) => numbers.len(),
             Self::Doubles(numbers) => numbers.len(),
-        }
-    }
-}
-
-impl Values {
-    fn len(&self) -> usize {
-        match self {
-            Self::Singles(values) => values.len(),
-            Self::Doubles(values) => values.len(),
-        }
-    }
-
-    fn push(&mut self, value: f64) {
-        match self {
-            Self::Singles(values) => values.push(value as f32),
-            Self::Doubles(values) => values.push(value),
-        }
-    }
-
-    /// Adds NaN up to this length, for which there is room.
-    fn fill(&mut self, len: usize) {
-        match self {
-            Self::Singles(values) => values.resize(len, f32::NAN),
-            Self::Doubles(values) => values.resize(len, f64::NAN),
         }
     }
 }

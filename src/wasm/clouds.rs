@@ -8,11 +8,15 @@ use std::thread_local;
 use wasm_bindgen::prelude::*;
 
 use crate::answers::memory::ViewMemory;
+#[cfg(feature = "wasm")]
+use crate::answers::transfer::Transfer;
 use crate::base::FULL;
 use crate::base::allocation::push;
 use crate::wasm::failure::disposed;
 use crate::wasm::objects::numbered;
 use crate::wasm::options::ViewOptions;
+#[cfg(feature = "wasm")]
+use crate::wasm::surveys::Placed;
 use crate::wasm::transfer::copy_in_bytes;
 use crate::{Error, Options, PointCloud};
 #[cfg(feature = "wasm")]
@@ -23,13 +27,17 @@ thread_local! {
     static LAST_VIEWS: RefCell<[Option<LastView>; 2]> = const { RefCell::new([None, None]) };
 }
 
-/// A cloud of three dimensions (or two, with z = 0), or of more; or the horizon of a cloud.
+/// A cloud of three dimensions (or two, with z = 0), or of more; or what is made of the views of one.
 pub(super) enum Cloud {
     Space(Box<PointCloud>),
     #[cfg(feature = "wasm")]
     Hyper(Box<PointCloudNd>),
     #[cfg(feature = "wasm")]
     Horizon(Box<Horizon>),
+    #[cfg(feature = "wasm")]
+    Transfer(Box<Transfer>),
+    #[cfg(feature = "wasm")]
+    Choice(Box<Placed>),
 }
 
 /// The hull of a view. A view in slices goes on from it. All clouds share two, the newer first, so that many
@@ -48,7 +56,7 @@ fn info(handle: u32, cloud: &Cloud) -> Result<JsValue, Error> {
         #[cfg(feature = "wasm")]
         Cloud::Hyper(cloud) => (cloud.len(), cloud.skipped(), cloud.spacing()),
         #[cfg(feature = "wasm")]
-        Cloud::Horizon(_) => (0, 0, 0.0),
+        _ => (0, 0, 0.0),
     };
     Ok(numbered(&[
         ("handle", f64::from(handle)),

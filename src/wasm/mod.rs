@@ -30,6 +30,8 @@ mod options;
 mod outputs;
 #[cfg(feature = "wasm")]
 mod panoramas;
+#[cfg(feature = "wasm")]
+mod surveys;
 mod transfer;
 #[cfg(feature = "wasm")]
 mod views;
@@ -76,6 +78,19 @@ interface Answer extends ChosenRadius {
   scores: Float32Array<ArrayBuffer>;
   exact: number;
   scales: [number, number, number];
+}
+interface ShownPoints {
+  indices: Uint32Array;
+  pixels: Float32Array;
+  depths: Float32Array;
+  towards?: Float32Array | undefined;
+  scores?: Float32Array | undefined;
+}
+interface PlacementAnswer {
+  chosen: number[];
+  gains: number[];
+  seen: Uint32Array<ArrayBuffer>;
+  unseen: Uint32Array<ArrayBuffer>;
 }
 interface CalibrationAnswer { thickness: number; recall: number[]; shown: number; isLow: boolean }
 interface MapAnswer {

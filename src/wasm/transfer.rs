@@ -8,6 +8,8 @@ use wasm_bindgen::JsCast;
 use wasm_bindgen::prelude::*;
 
 use crate::Error;
+#[cfg(feature = "wasm")]
+use crate::Pixels;
 use crate::base::allocation::filled;
 use crate::cloud::points::Points;
 
@@ -17,7 +19,15 @@ extern "C" {
     #[wasm_bindgen(typescript_type = "Float32Array | Float64Array")]
     pub type Coordinates;
     #[wasm_bindgen(method, getter, js_name = BYTES_PER_ELEMENT)]
-    fn bytes_of_each(this: &Coordinates) -> u32;
+    pub(super) fn bytes_of_each(this: &Coordinates) -> u32;
+
+    /// The numbers of an image.
+    #[cfg(feature = "wasm")]
+    #[wasm_bindgen(typescript_type = "Uint8Array | Float32Array | Float64Array")]
+    pub type Numbers;
+    #[cfg(feature = "wasm")]
+    #[wasm_bindgen(method, getter, js_name = BYTES_PER_ELEMENT)]
+    fn bytes_of_each(this: &Numbers) -> u32;
 
     /// Memory outside of the wasm, which may be refused.
     #[wasm_bindgen(js_name = ArrayBuffer)]
@@ -51,6 +61,32 @@ pub(super) fn numbers(numbers: &Float64Array) -> Result<Vec<f64>, Error> {
     let mut own = zeros(numbers.length())?;
     numbers.copy_to(&mut own);
     Ok(own)
+}
+
+#[cfg(feature = "wasm")]
+pub(super) fn singles(numbers: &Float32Array) -> Result<Vec<f32>, Error> {
+    let mut own = zeros(numbers.length())?;
+    numbers.copy_to(&mut own);
+    Ok(own)
+}
+
+#[cfg(feature = "wasm")]
+pub(super) fn groups<const N: usize>(numbers: &Float32Array) -> Result<Vec<[f32; N]>, Error> {
+    let mut own = filled(numbers.length() as usize / N, [0.0; N])?;
+    numbers.copy_to(own.as_flattened_mut());
+    Ok(own)
+}
+
+#[cfg(feature = "wasm")]
+impl Numbers {
+    /// Copies them in, and gives them to `act`.
+    pub(super) fn with<T>(&self, act: impl FnOnce(Pixels) -> Result<T, Error>) -> Result<T, Error> {
+        match self.bytes_of_each() {
+            1 => act(Pixels::Bytes(&copy_in_bytes(self.unchecked_ref())?)),
+            4 => act(Pixels::Singles(&singles(self.unchecked_ref())?)),
+            _ => act(Pixels::Doubles(&numbers(self.unchecked_ref())?)),
+        }
+    }
 }
 
 #[inline(never)]

@@ -57,7 +57,7 @@ pub fn camera_place(camera: &Float64Array) -> Result<Float64Array, JsValue> {
 }
 
 #[inline(never)]
-fn read(camera: &Float64Array) -> Camera {
+pub(super) fn read(camera: &Float64Array) -> Camera {
     let mut numbers = [0.0; 35];
     camera.copy_to(&mut numbers);
     Camera::of(&numbers)

@@ -1,9 +1,9 @@
 import { PerspectiveCamera } from "three";
-import { expect, it } from "vitest";
+import { afterEach, describe, expect, it } from "vitest";
 
 import { bumpySphere, expectRefusal, readyPackage } from "./support";
 
-const { PointCloud, cameraFromThree, transfer } = await readyPackage();
+const { PointCloud, cameraFromPose, cameraFromThree, transfer } = await readyPackage();
 const { WorkerPointCloud } = await import("hidden-point-removal/worker");
 
 const positions = bumpySphere(5, 3000);
@@ -142,4 +142,107 @@ it("bad images and options are refused", async () => {
   }
   expect(() => transfer(cloud, 5 as never, [])).toThrow(expect.objectContaining({ code: "viewpoint" }));
   expect(transfer(cloud, [], []).seen.length).toBe(cloud.length);
+});
+
+describe("images come one after another", () => {
+  const local = new PointCloud([0, 0, 4, 1, 0, 4, 0, 1, 5]);
+  const camera = cameraFromPose([0, 0, 0], [0, 0, 0, 1], { fx: 1, fy: 1, cx: 1, cy: 1, width: 2, height: 2 });
+  const four = [camera, camera, camera, camera];
+  const of = (...numbers: number[]) => ({ data: Float32Array.from(numbers), width: 2, height: 2 });
+  afterEach(() => {
+    Reflect.deleteProperty(Object.prototype, "channels");
+  });
+
+  it("from a generator, each after its camera was asked", async () => {
+    const remote = await WorkerPointCloud.create([0, 0, 4, 1, 0, 4, 0, 1, 5], { workers: 2 });
+    for (const cloud of [local, remote]) {
+      let told: string[] = [];
+      function* images() {
+        try {
+          for (const k of [1, 2, 3, 6]) {
+            told.push(`image ${k}`);
+            yield of(k, k, k, k);
+          }
+        } finally {
+          told.push("end");
+        }
+      }
+      const onProgress = () => told.push("view");
+      const ask = (options: object) =>
+        cloud === local ? transfer(local, four, images(), options) : transfer(remote, four, images(), options);
+      expect([...(await ask({ onProgress })).values]).toEqual([3, 3, 3]);
+      if (cloud === local) {
+        expect(told.slice(0, 4)).toEqual(["image 1", "view", "image 2", "view"]);
+      }
+      expect(told.slice(-1)).toEqual(["end"]);
+      told = [];
+      await expect((async () => ask({ radius: 1 }))()).rejects.toMatchObject({ code: "radius" });
+    }
+    await remote.dispose();
+  });
+
+  it("too few, too many, and a generator that throws", async () => {
+    const remote = await WorkerPointCloud.create([0, 0, 4, 1, 0, 4, 0, 1, 5], { workers: 2 });
+    const fault = new RangeError("no such photo");
+    function* images(count: number) {
+      for (let k = 0; k < count; k++) yield of(1, 1, 1, 1);
+      if (count === 2) throw fault;
+    }
+    for (const ask of [
+      (count: number) => transfer(local, four, images(count)),
+      (count: number) => transfer(remote, four, images(count)),
+    ]) {
+      await expectRefusal("option", /one image for each of 4 cameras, got 3 of them/, () => ask(3));
+      await expectRefusal("option", /one image for each of 4 cameras, got more/, () => ask(5));
+      await expect((async () => ask(2))()).rejects.toBe(fault);
+      expect((await ask(4)).seen).toEqual(Uint32Array.of(4, 4, 4));
+    }
+    await remote.dispose();
+  });
+
+  it("an array of them is read when the question is asked", async () => {
+    const remote = await WorkerPointCloud.create([0, 0, 4, 1, 0, 4, 0, 1, 5]);
+    for (const act of [
+      (data: Float32Array) => data.fill(99),
+      (data: Float32Array) => structuredClone(data.buffer, { transfer: [data.buffer as ArrayBuffer] }),
+    ]) {
+      const image = of(10, 20, 30, 40);
+      const asked = transfer(remote, [camera], [image]);
+      act(image.data);
+      expect((await asked).values).toEqual(transfer(local, [camera], [of(10, 20, 30, 40)]).values);
+    }
+    await remote.dispose();
+  });
+
+  it("integers stay what they are, in every type", () => {
+    const label = 2 ** 24 + 1;
+    for (const Type of [Int32Array, Uint32Array, Float64Array]) {
+      for (const merge of ["vote", "best", "median", "mean"] as const) {
+        const { values } = transfer(local, [camera], [{ ...of(), data: new Type(4).fill(label) }], { merge });
+        expect(values).toEqual(Float64Array.of(label, label, label));
+      }
+    }
+    for (const Type of [Int8Array, Int16Array, Uint16Array, Uint8Array, Uint8ClampedArray]) {
+      const { values } = transfer(local, [camera], [{ ...of(), data: new Type(4).fill(7) }]);
+      expect(values).toEqual(Float32Array.of(7, 7, 7));
+    }
+  });
+
+  it("what somebody added to Object.prototype is no number of channels", () => {
+    Object.defineProperty(Object.prototype, "channels", { value: 4, configurable: true });
+    expect([...transfer(local, [camera], [of(7, 7, 7, 7)]).values]).toEqual([7, 7, 7]);
+  });
+
+  it("the angle is that of the ray, whatever the lens", () => {
+    const angle = (80 * Math.PI) / 180;
+    const turn = (20 * Math.PI) / 180;
+    const aside = new PointCloud([Math.sin(angle), 0, Math.cos(angle)]);
+    const lens = { fx: 100, fy: 100, cx: 200, cy: 200, width: 400, height: 400 };
+    const fisheye = cameraFromPose([0, 0, 0], [0, 0, 0, 1], { ...lens, model: "OPENCV_FISHEYE" });
+    const turned = cameraFromPose([0, 0, 0], [0, Math.sin(turn / 2), 0, Math.cos(turn / 2)], lens);
+    const images = [0, 1].map((x) => ({ data: new Float32Array(160_000).fill(x), width: 400, height: 400 }));
+    const [far, near] = [Math.cos(angle), Math.cos(angle - turn)];
+    const { values } = transfer(aside, [fisheye, turned], images, { weights: "angle" });
+    expect(values[0]).toBeCloseTo(near / (far + near), 5);
+  });
 });

@@ -3,10 +3,8 @@ import { parseArgs } from "node:util";
 import { HprError } from "../base/errors.js";
 import type { ChosenColumns } from "../formats/axes.js";
 import { PointCloud } from "../index.js";
+import { TRANSFER_ROWS, type TransferOptions } from "../query/option-rows.js";
 import type { VisibilityOptions } from "../query/view-options.js";
-import { MERGES } from "../query/merge-values.js";
-import { type TransferOptions } from "../query/transfer.js";
-import { TRANSFER_ROWS } from "../query/option-rows.js";
 import { MAX_WORKERS } from "../worker/workers.js";
 import { endingOf, FORMATS } from "./formats/formats.js";
 import { TRANSFER_FLAGS, VIEW_FLAGS } from "./flags.js";
@@ -88,7 +86,7 @@ export function readArguments(args: string[]): Settings | "help" | "version" {
         ? undefined
         : {
             images: values.images,
-            merge: oneOf("merge", values.merge, MERGES),
+            merge: oneOf("merge", values.merge, TRANSFER_ROWS.merge.words),
             weights: oneOf("weights", values.weights, TRANSFER_ROWS.weights.words),
           },
     options,

@@ -1,7 +1,6 @@
-import { transfer } from "../cloud/transfer.js";
+import { transfer, type Transferred, type TransferOptions } from "../cloud/transfer.js";
 import { type Camera, isCamera } from "../query/camera.js";
-import type { SeenBy } from "../query/seen-by.js";
-import type { TransferOptions, Transferred } from "../query/transfer.js";
+import type { SeenBy } from "../query/surveys.js";
 import type { VisibilityOptions } from "../query/view-options.js";
 import { WorkerPointCloud } from "../worker.js";
 import { defaultWorkers } from "../worker/workers.js";

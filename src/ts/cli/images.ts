@@ -2,7 +2,7 @@
 import { stat } from "node:fs/promises";
 import { basename, isAbsolute, join, relative, sep } from "node:path";
 
-import type { TransferImage } from "../query/images.js";
+import type { TransferImage } from "../cloud/transfer.js";
 import { InputProblem } from "./files.js";
 
 const ENDINGS = ["", ".jpg", ".jpeg", ".png", ".JPG", ".JPEG", ".PNG"];

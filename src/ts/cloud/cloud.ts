@@ -21,12 +21,17 @@ import type { Panorama, PanoramaOptions } from "../query/panorama-options.js";
 import type { VisibilityMapOptions } from "../query/map-options.js";
 import type { IlluminationOptions, ReconstructionOptions } from "../query/queries.js";
 import { type Calibration, calibrationQuery, type Station } from "../query/calibration.js";
-import type { Placement } from "../query/placement.js";
 import type { SurfaceKind } from "../query/option-types.js";
 import type { ViewpointOrCamera } from "../query/seats.js";
-import type { SeenBy } from "../query/seen-by.js";
-import { surveyQuestion } from "../query/survey-methods.js";
-import { type CoverageOptions, type PlacementOptions, surveyed, type SurveyQuestion } from "../query/surveys.js";
+import {
+  type CoverageOptions,
+  type Placement,
+  type PlacementOptions,
+  type SeenBy,
+  surveyed,
+  surveyQuestion,
+  type SurveyQuestion,
+} from "../query/surveys.js";
 import { type RadiusRule, VIEW_OPTIONS, type VisibilityOptions } from "../query/view-options.js";
 import type { CameraView, Reconstruction, Visibility } from "./visibility.js";
 import type { VisibilityMap } from "./visibility-map.js";
@@ -287,14 +292,18 @@ export class PointCloud {
     const progress = listener(given, "onProgress") as CoverageOptions["onProgress"];
     const task = read(this.#core.dimension, given, progress);
     const { size } = this.#core;
-    for (let next = task.next(0); next !== undefined; next = task.next(0)) {
-      const found: Found = this.#core.ask(next.view);
-      task.take(next.number, found);
-      if (this.#core.size !== size) {
-        throw new HprError("option", `${method}: onProgress must not change the cloud`);
+    try {
+      for (let next = task.next(0); next !== undefined; next = task.next(0)) {
+        const found: Found = this.#core.ask(next.view);
+        task.take(next.number, found);
+        if (this.#core.size !== size) {
+          throw new HprError("option", `${method}: onProgress must not change the cloud`);
+        }
       }
+      return task.result(this.length);
+    } finally {
+      task.end();
     }
-    return task.result(this.length);
   }
 
   /**

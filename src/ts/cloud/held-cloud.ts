@@ -3,7 +3,7 @@ import type { Instance } from "../instance/engine.js";
 import type { CloudSettings, CloudSize } from "../query/options.js";
 import { packed, readIndices, readPositions } from "../query/positions.js";
 import type * as lite from "../lite/hpr_bg.js";
-import { freeCloud, unreachable } from "./free.js";
+import { freeCloud, unreachable } from "../instance/engine.js";
 
 /** The exports that every wasm has. */
 export type OperatorBindings = Omit<typeof lite, "__wbg_set_wasm">;

@@ -4,7 +4,7 @@ import { addTag } from "../base/tag.js";
 import { HprError } from "../base/errors.js";
 import { type Bindings, type Instance, requireInstance } from "../instance/instance.js";
 import { type Positions, readPositions, readViewpoint, type Viewpoint } from "../query/positions.js";
-import { freeCloud, unreachable } from "./free.js";
+import { freeCloud, unreachable } from "../instance/engine.js";
 import { type MergeOptions, mergeSettings } from "./merge.js";
 
 /**

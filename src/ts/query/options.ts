@@ -98,6 +98,11 @@ function namesIn(options: object, known: readonly string[]): Set<string | symbol
   return names;
 }
 
+/** A property of an object that need not be plain. What somebody added to `Object.prototype` is none. */
+export function ownOf(value: object, name: string): unknown {
+  return name in Object.prototype && !Object.hasOwn(value, name) ? undefined : Reflect.get(value, name);
+}
+
 /** The given options whose names are in one group. */
 export function pick(given: Record<string, unknown>, names: readonly string[]): Record<string, unknown> {
   const picked = Object.create(null) as Record<string, unknown>;

@@ -1,7 +1,7 @@
 import { describe, HprError } from "../base/errors.js";
 import { allocating } from "../base/memory.js";
 import { plainView, typedArrayType } from "../base/typed-arrays.js";
-import type { SeenBy } from "./seen-by.js";
+import type { SeenBy } from "./surveys.js";
 
 type Normals = Float32Array<ArrayBuffer> | Float64Array<ArrayBuffer>;
 

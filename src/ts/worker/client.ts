@@ -3,6 +3,7 @@ import type { ChosenRadius } from "../query/answers.js";
 import { addDisposeSymbol } from "../base/dispose-symbol.js";
 import { addTag } from "../base/tag.js";
 import { HprError } from "../base/errors.js";
+import { init } from "../loader.js";
 import { moduleForWorker } from "../own-wasm.js";
 import { allocating } from "../base/memory.js";
 import {
@@ -20,8 +21,7 @@ import {
 import type { Place } from "../query/place.js";
 import { isFloatArray, type Positions, readIndices, readPositions, type Viewpoint } from "../query/positions.js";
 import { type Calibration, calibrationQuery, type Station } from "../query/calibration.js";
-import { type SurveyName, surveyQuestion, SURVEYS } from "../query/survey-methods.js";
-import { surveyed, type SurveyQuestion } from "../query/surveys.js";
+import { surveyed, type SurveyName, surveyQuestion, type SurveyQuestion, SURVEYS } from "../query/surveys.js";
 import type { SurfaceKind } from "../query/option-types.js";
 import type { Panorama, PanoramaOptions } from "../query/panorama-options.js";
 import type { RadiusRule, VisibilityOptions } from "../query/view-options.js";
@@ -302,8 +302,16 @@ export class WorkerPointCloud {
     const progress = readProgress(given);
     const task = read(this.#settings.dimension, given, (fraction) => progress?.at(fraction));
     if (signal !== undefined) task.stopWhen(() => signal.aborted);
-    await untilAborted(signal, this.#queue.ask({ kind: "survey", task }, { latest, signal, owner: this }));
-    return task.result(this.length);
+    const ready = task.usesWasm ? init() : Promise.resolve();
+    // The queue hears of a failure as soon as it is the turn of this request.
+    ready.catch(() => undefined);
+    const asked = this.#queue.ask({ kind: "survey", task, ready }, { latest, signal, owner: this });
+    try {
+      await untilAborted(signal, asked);
+      return task.result(this.length);
+    } finally {
+      task.end();
+    }
   }
 
   async #ask(name: MethodName, args: readonly unknown[]): Promise<unknown> {

@@ -1,5 +1,5 @@
 import type { SurveyTask } from "../query/surveys.js";
-import { failedReply, type Replies, type Reply, type Request } from "./protocol.js";
+import { type Replies, type Reply, type Request } from "./protocol.js";
 import type { Thread } from "./thread.js";
 
 /** A refusal. Of several, the one with the lowest place is reported. */
@@ -58,7 +58,7 @@ export class Dealing {
     try {
       return act();
     } catch (thrown) {
-      this.#fail(number, failedReply(thrown));
+      this.#fail(number, { thrown });
       return undefined;
     }
   }

@@ -27,8 +27,11 @@ export type Request =
    * It is the only letter that may come before the reply to the request before.
    */
   | { kind: "abandon" }
-  /** Asks many views. The team deals them out to its members, so this is never sent to a worker. */
-  | { kind: "survey"; task: SurveyTask }
+  /**
+   * Asks many views as soon as the page is `ready`. The team deals them out to its members, so this is never sent to a
+   * worker.
+   */
+  | { kind: "survey"; task: SurveyTask; ready: Promise<void> }
   /** With `sliced`, a view is computed in slices, so that it can be given up. */
   | (Query & { sliced?: boolean });
 
@@ -50,6 +53,8 @@ export function isReplied({ kind }: Request): boolean {
 export type Reply<Value = unknown> =
   | { value: Value }
   | { error: { code: HprErrorCode; message: string } }
+  // An error on this side, not of the worker.
+  | { thrown: unknown }
   // Nobody waits for the answer any more.
   | { abandoned: true };
 

@@ -179,6 +179,10 @@ export class RequestQueue implements GuestEvents {
       request?.resolve(reply.value);
       return;
     }
+    if ("thrown" in reply) {
+      request?.reject(reply.thrown);
+      return;
+    }
     const error = new HprError(reply.error.code, reply.error.message);
     request?.reject(error);
     if (error.code === "internal") {

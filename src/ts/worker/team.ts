@@ -68,9 +68,13 @@ export class Team {
         this.#events.message(reply);
       });
       this.#dealing = dealing;
-      queueMicrotask(() => {
-        dealing.deal();
-      });
+      const failed = (thrown: unknown) => {
+        this.#dealing = undefined;
+        this.#events.message({ thrown } satisfies Reply);
+      };
+      void request.ready.then(() => {
+        if (this.#dealing === dealing) dealing.deal();
+      }, failed);
       return;
     }
     const asked = isChange(request) ? this.#members : this.#members.slice(0, 1);
@@ -107,6 +111,7 @@ export class Team {
 
   /** Ends all threads, which frees their memory. After that, nothing is reported. */
   async end(): Promise<void> {
+    this.#dealing = undefined;
     await Promise.all(this.#members.map((thread) => thread.end()));
   }
 

@@ -3,7 +3,7 @@ import { contentOf, type WrittenFormat } from "../../formats/write/content.js";
 import { finestScale, lasParts } from "../../formats/write/las.js";
 import { plyParts } from "../../formats/write/ply.js";
 import type { PointFile } from "./frames.js";
-import type { Transferred } from "../../query/transfer.js";
+import type { Transferred } from "../../cloud/transfer.js";
 
 /** The endings of files that the points of all formats can be written to. */
 export const CONVERTED: readonly string[] = [".ply", ".las"];

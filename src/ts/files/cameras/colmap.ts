@@ -7,7 +7,7 @@ import { countIn, numberIn } from "../../formats/numbers.js";
 import { wordsOf } from "../../formats/text.js";
 import { HprError } from "../../base/errors.js";
 import { allocating } from "../../base/memory.js";
-import type { SeenBy } from "../../query/seen-by.js";
+import type { SeenBy } from "../../query/surveys.js";
 
 /** @param pose QW, QX, QY, QZ, TX, TY, TZ: from the world to the camera */
 export function cameraBy(
