@@ -20,7 +20,7 @@ import type { Camera } from "../query/camera.js";
 import type { Panorama, PanoramaOptions } from "../query/panorama-options.js";
 import type { VisibilityMapOptions } from "../query/map-options.js";
 import type { IlluminationOptions, ReconstructionOptions } from "../query/queries.js";
-import { type Calibration, calibrationQuery, type Station } from "../query/calibration.js";
+import type { Calibration, Station } from "../query/calibration.js";
 import type { SurfaceKind } from "../query/option-types.js";
 import type { ViewpointOrCamera } from "../query/seats.js";
 import {
@@ -276,13 +276,7 @@ export class PointCloud {
    * @throws HprError `option` also for stations without points; otherwise as {@link PointCloud.visibleFrom}.
    */
   calibrate(stations: readonly Station[], options?: VisibilityOptions): Calibration {
-    this.#core.requireOpen();
-    const { query, answer } = calibrationQuery(
-      { dimension: this.#core.dimension, length: this.length },
-      stations,
-      options,
-    );
-    return answer(this.#core.ask(query));
+    return this.#ask("calibrate", stations, options);
   }
 
   /** Asks all views of a task, one after another. */

@@ -1,4 +1,5 @@
 import type { Answers } from "../query/answers.js";
+import { CALIBRATION_ROWS, calibrationAnswer, calibrationQuery } from "../query/calibration.js";
 import {
   type IlluminationOptions,
   LIGHT_ROWS,
@@ -37,7 +38,7 @@ interface Method<Kind extends QueryKind, Given> {
   readonly count: number;
   readonly rows: Rows;
   readonly question: (settings: CloudSettings, given: Given, ...args: readonly unknown[]) => Query<Kind>;
-  readonly answer: (found: Answers[Kind]) => unknown;
+  readonly answer: (found: Answers[Kind], given: Record<string, unknown>) => unknown;
 }
 
 function method<Kind extends QueryKind, Given = View>(
@@ -113,6 +114,12 @@ export const METHODS = {
     ({ dimension }, given, viewpoint) => reconstructionQuery(dimension, viewpoint, given),
     (found) => new ReconstructionAnswer(found),
   ),
+  calibrate: method<"calibrate">(
+    1,
+    CALIBRATION_ROWS,
+    ({ dimension }, given, stations) => calibrationQuery(dimension, stations, given),
+    calibrationAnswer,
+  ),
   illuminate: method<"illuminate", Checked<IlluminationOptions, typeof LIGHT_ROWS>>(
     1,
     LIGHT_ROWS,
@@ -132,5 +139,6 @@ export function readQuestion(
 ): { query: Query; given: Record<string, unknown>; answer: (found: never) => unknown } {
   const { count, rows, question, answer } = METHODS[name];
   const given = readOptions(args[count], rows, settings.dimension, others);
-  return { query: question(settings, given as never, ...args.slice(0, count)), given, answer };
+  const query = question(settings, given as never, ...args.slice(0, count));
+  return { query, given, answer: (found) => answer(found, given) };
 }

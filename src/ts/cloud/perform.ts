@@ -3,6 +3,7 @@ import { HprError, naming } from "../base/errors.js";
 import type { Bindings, Instance } from "../instance/instance.js";
 import { allocating } from "../base/memory.js";
 import type { Query, QueryKind } from "../query/queries.js";
+import { checkStations } from "../query/calibration.js";
 import { newCounts, viewFrom } from "../query/surveys.js";
 import { hasScores, resolvedInversion, type ViewSettings } from "../query/view-options.js";
 
@@ -111,8 +112,11 @@ const performers: { [K in QueryKind]: (target: Target, query: Query<K>) => Answe
     );
   },
 
-  calibrate: ({ instance, handle }, { viewpoints, ends, indices, settings }) =>
-    instance.call((bindings) => bindings.calibrate(handle, viewpoints, ends, indices, settings)),
+  calibrate: ({ instance, handle, length }, query) => {
+    checkStations(query, length);
+    const { viewpoints, ends, indices, settings } = query;
+    return instance.call((bindings) => bindings.calibrate(handle, viewpoints, ends, indices, settings));
+  },
 
   noise: ({ instance, handle, dimension }) => ({
     noise: dimension > 3 ? 0 : instance.call((bindings) => bindings.noise(handle)),

@@ -2,7 +2,8 @@ import { describe, HprError } from "../base/errors.js";
 import { allocating } from "../base/memory.js";
 import { plainView, typedArrayType } from "../base/typed-arrays.js";
 import type { Answers } from "./answers.js";
-import { givenOptions, requireSpace } from "./options.js";
+import { VIEW_ROWS } from "./option-rows.js";
+import { ownOf, requireSpace, type Rows } from "./options.js";
 import { readIndices, readViewpoint, type Viewpoint } from "./positions.js";
 import type { Query } from "./queries.js";
 import { refuseScores, VIEW_OPTIONS, viewSettings, type VisibilityOptions } from "./view-options.js";
@@ -33,32 +34,59 @@ export interface Calibration {
   readonly note?: string;
 }
 
-/** Reads the stations of a cloud of so many indices, and the options, which look three times by default. */
-export function calibrationQuery(
-  { dimension, length }: { dimension: number; length: number },
-  stations: unknown,
-  options: unknown,
-): { query: Query<"calibrate">; answer: (found: Answers["calibrate"]) => Calibration } {
+/** The options of a view. They look three times by default, so what needs looks may stand alone. */
+export const CALIBRATION_ROWS = Object.fromEntries(
+  Object.entries(VIEW_ROWS).map(([name, row]) => [name, { ...row, needs: undefined }]),
+) satisfies Rows;
+
+/** @param given the options, which look three times by default */
+export function calibrationQuery(dimension: number, stations: unknown, given: object): Query<"calibrate"> {
   requireSpace("calibrate", dimension);
-  const given: VisibilityOptions = { looks: 3, ...givenOptions(options, VIEW_OPTIONS) };
   refuseScores(given, "calibrate");
-  const settings = viewSettings({ ...given }, dimension);
-  const own = readStations(stations, length);
+  const settings = viewSettings(looking(given), dimension);
+  const own = readStations(stations);
   const ends = own.reduce<number[]>((ends, { indices }) => [...ends, (ends.at(-1) ?? 0) + indices.length], []);
   const indices = allocating(`${ends.at(-1)} indices`, () => new Uint32Array(ends.at(-1)!));
   own.forEach((station, i) => indices.set(station.indices, ends[i]! - station.indices.length));
   const viewpoints = Float64Array.from(own.flatMap(({ viewpoint }) => readViewpoint(viewpoint, 3)));
-  const query = { kind: "calibrate" as const, viewpoints, ends: Uint32Array.from(ends), indices, settings };
-  const answer = ({ thickness, recall, shown, isLow }: Answers["calibrate"]): Calibration => {
-    const mean = recall.reduce((sum, share) => sum + share, 0) / recall.length;
-    const seen = Math.floor(100 * mean);
-    const note = `the stations see ${seen} % of their own points: more thickness would show more hidden points than own ones`;
-    return { thickness, recall, shown, options: { ...given, thickness }, ...(isLow && { note }) };
-  };
-  return { query, answer };
+  const masks = own.map(({ length }) => length);
+  return { kind: "calibrate", viewpoints, ends: Uint32Array.from(ends), indices, masks, settings };
 }
 
-function readStations(stations: unknown, length: number) {
+export function calibrationAnswer(
+  { thickness, recall, shown, isLow }: Answers["calibrate"],
+  given: Record<string, unknown>,
+): Calibration {
+  const mean = recall.reduce((sum, share) => sum + share, 0) / recall.length;
+  const seen = Math.floor(100 * mean);
+  const note = `the stations see ${seen} % of their own points: more thickness would show more hidden points than own ones`;
+  return { thickness, recall, shown, options: { ...looking(given), thickness }, ...(isLow && { note }) };
+}
+
+/** The options of a view among them, with three looks unless they say otherwise. */
+function looking(given: object): VisibilityOptions {
+  const own = Object.entries(given).filter(([name]) => VIEW_OPTIONS.includes(name));
+  return { looks: 3, ...Object.fromEntries(own) };
+}
+
+/** Refuses stations without points, and those whose masks or indices do not fit a cloud of so many indices. */
+export function checkStations({ masks, ends, indices }: Query<"calibrate">, length: number): void {
+  masks.forEach((bytes, i) => {
+    if (bytes !== undefined && bytes !== length) {
+      throw new HprError("option", `stations[${i}]: the mask must be a Uint8Array of ${length} bytes, got ${bytes}`);
+    }
+  });
+  const empty = ends.findIndex((end, i) => end === (i === 0 ? 0 : ends[i - 1]));
+  if (empty >= 0) throw new HprError("option", `stations[${empty}] has no points`);
+  const stray = indices.findIndex((index) => index >= length);
+  if (stray < 0) return;
+  const station = ends.findIndex((end) => end > stray);
+  const problem = `has index ${indices[stray]}, which must be below ${length}`;
+  throw new HprError("option", `stations[${station}] ${problem}`);
+}
+
+/** The stations; also the length of a mask. */
+function readStations(stations: unknown): { viewpoint: unknown; indices: Uint32Array; length: number | undefined }[] {
   if (!Array.isArray(stations) || stations.length === 0) {
     throw new HprError("option", `stations must be an array of at least one station, got ${describe(stations)}`);
   }
@@ -70,25 +98,26 @@ function readStations(stations: unknown, length: number) {
         `${name} must be { viewpoint, indices } or { viewpoint, mask }, got ${describe(station)}`,
       );
     }
-    const { viewpoint, indices, mask } = station as Station;
+    const [viewpoint, indices, mask] = ["viewpoint", "indices", "mask"].map((part) => ownOf(station, part));
     if ((indices === undefined) === (mask === undefined)) {
       throw new HprError("option", `${name} must have one of indices and mask`);
     }
-    const own = mask === undefined ? readIndices(indices) : marked(mask, length, name);
-    const stray = own.find((index) => index >= length);
-    if (own.length === 0 || stray !== undefined) {
-      const problem = stray === undefined ? "has no points" : `has index ${stray}, which must be below ${length}`;
-      throw new HprError("option", `${name} ${problem}`);
-    }
-    return { viewpoint, indices: own };
+    const bytes = mask === undefined ? undefined : readMask(mask, name);
+    const own = bytes === undefined ? readIndices(indices) : marked(bytes);
+    return { viewpoint, indices: own, length: bytes?.length };
   });
 }
 
-function marked(mask: unknown, length: number, name: string): Uint32Array {
+function readMask(mask: unknown, name: string): Uint8Array {
   const bytes = typedArrayType(mask) === "Uint8Array" ? plainView(mask as Uint8Array, Uint8Array) : undefined;
-  if (bytes?.length !== length) {
-    throw new HprError("option", `${name}: the mask must be a Uint8Array of ${length} bytes, got ${describe(mask)}`);
-  }
+  if (bytes !== undefined) return bytes;
+  throw new HprError(
+    "option",
+    `${name}: the mask must be a Uint8Array with one byte for each index, not transferred away, got ${describe(mask)}`,
+  );
+}
+
+function marked(bytes: Uint8Array): Uint32Array {
   const count = bytes.reduce((sum, byte) => sum + Number(byte !== 0), 0);
   const indices = allocating(`${count} indices`, () => new Uint32Array(count));
   let next = 0;

@@ -130,7 +130,7 @@ export interface Row {
   readonly truth?: boolean;
   readonly call?: boolean;
   readonly space?: boolean;
-  readonly needs?: string;
+  readonly needs?: string | undefined;
   readonly excludes?: readonly string[];
 }
 

@@ -1,6 +1,7 @@
 import { describe, HprError } from "../base/errors.js";
 import { allocating } from "../base/memory.js";
 import { plainView, typedArrayType } from "../base/typed-arrays.js";
+import { ownOf } from "./options.js";
 import type { SeenBy } from "./surveys.js";
 
 type Normals = Float32Array<ArrayBuffer> | Float64Array<ArrayBuffer>;
@@ -23,7 +24,7 @@ export function orientNormals(
   seenBy: Pick<SeenBy, "offsets" | "towards">,
 ): Normals {
   const own = copied(normals);
-  const { offsets, towards } = rows(seenBy);
+  const { offsets, values: towards } = rowsOf(seenBy, "towards", 3, Float32Array);
   if (own.length !== 3 * (offsets.length - 1)) {
     throw new HprError(
       "option",
@@ -60,17 +61,21 @@ function copied(normals: unknown): Normals {
   return allocating(`${plain.length} numbers`, () => plain.slice());
 }
 
-/** The rows, whose offsets rise from 0 to the number of directions. */
-function rows(given: unknown): { offsets: Uint32Array; towards: Float32Array } {
-  const { offsets, towards } = (given ?? {}) as Partial<Record<string, unknown>>;
-  const own = {
-    offsets: typedArrayType(offsets) === "Uint32Array" ? plainView(offsets as Uint32Array, Uint32Array) : undefined,
-    towards: typedArrayType(towards) === "Float32Array" ? plainView(towards as Float32Array, Float32Array) : undefined,
-  };
+/** The rows of `seenBy`, whose offsets rise from 0 to the number of entries, and `width` numbers for each entry. */
+export function rowsOf<T extends Float32Array | Uint32Array>(
+  given: unknown,
+  name: "towards" | "cameras",
+  width: number,
+  Type: new (buffer: ArrayBufferLike, byteOffset: number, length: number) => T,
+): { offsets: Uint32Array; values: T } {
+  const isObject = typeof given === "object" && given !== null;
+  const [offsets, values] = [isObject && ownOf(given, "offsets"), isObject && ownOf(given, name)];
+  const rows = typedArrayType(offsets) === "Uint32Array" ? plainView(offsets as Uint32Array, Uint32Array) : undefined;
+  const own = typedArrayType(values) === Type.name ? plainView(values as T, Type) : undefined;
   const isWhole =
-    own.offsets?.[0] === 0 &&
-    3 * own.offsets.at(-1)! === own.towards?.length &&
-    own.offsets.every((offset, i, all) => i === 0 || offset >= all[i - 1]!);
+    rows?.[0] === 0 &&
+    width * rows.at(-1)! === own?.length &&
+    rows.every((offset, i, all) => i === 0 || offset >= all[i - 1]!);
   if (!isWhole) throw new HprError("option", `seenBy must be what seenBy of a cloud answers, got ${describe(given)}`);
-  return own as { offsets: Uint32Array; towards: Float32Array };
+  return { offsets: rows, values: own! };
 }

@@ -52,6 +52,8 @@ export interface Questions {
     viewpoints: Float64Array<ArrayBuffer>;
     ends: Uint32Array<ArrayBuffer>;
     indices: Uint32Array<ArrayBuffer>;
+    /** The lengths of the masks that stations were given by. */
+    masks: (number | undefined)[];
     settings: ViewSettings;
   };
   surface: object;

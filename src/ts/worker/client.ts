@@ -3,8 +3,9 @@ import type { ChosenRadius } from "../query/answers.js";
 import { addDisposeSymbol } from "../base/dispose-symbol.js";
 import { addTag } from "../base/tag.js";
 import { HprError } from "../base/errors.js";
-import { init } from "../loader.js";
-import { moduleForWorker } from "../own-wasm.js";
+import { engine } from "../instance/own-engine.js";
+import { initFrom } from "../instance/start.js";
+import { moduleForWorker, ownWasm } from "../own-wasm.js";
 import { allocating } from "../base/memory.js";
 import {
   CLOUD_OPTIONS,
@@ -20,7 +21,6 @@ import {
 } from "../query/options.js";
 import type { Place } from "../query/place.js";
 import { isFloatArray, type Positions, readIndices, readPositions, type Viewpoint } from "../query/positions.js";
-import { type Calibration, calibrationQuery, type Station } from "../query/calibration.js";
 import { surveyed, type SurveyName, surveyQuestion, type SurveyQuestion, SURVEYS } from "../query/surveys.js";
 import type { SurfaceKind } from "../query/option-types.js";
 import type { Panorama, PanoramaOptions } from "../query/panorama-options.js";
@@ -225,18 +225,6 @@ export class WorkerPointCloud {
   }
 
   /**
-   * Finds the thickness at which scanners see their own points; see `PointCloud.calibrate`.
-   *
-   * @throws HprError (as a rejection) the same as `PointCloud.calibrate`.
-   */
-  async calibrate(stations: readonly Station[], options?: VisibilityOptions): Promise<Calibration> {
-    this.#queue.requireOpen();
-    const { dimension } = this.#settings;
-    const { query, answer } = calibrationQuery({ dimension, length: this.length }, stations, options);
-    return answer(await this.#queue.query(query, { owner: this }));
-  }
-
-  /**
    * How far measured points lie off their surface; see `PointCloud.noise`.
    *
    * @throws HprError (as a rejection) the same as `PointCloud.noise`.
@@ -302,7 +290,7 @@ export class WorkerPointCloud {
     const progress = readProgress(given);
     const task = read(this.#settings.dimension, given, (fraction) => progress?.at(fraction));
     if (signal !== undefined) task.stopWhen(() => signal.aborted);
-    const ready = task.usesWasm ? init() : Promise.resolve();
+    const ready = task.usesWasm ? initFrom(engine, ownWasm(), undefined) : Promise.resolve();
     // The queue hears of a failure as soon as it is the turn of this request.
     ready.catch(() => undefined);
     const asked = this.#queue.ask({ kind: "survey", task, ready }, { latest, signal, owner: this });

@@ -5,8 +5,8 @@ import { cameraFromPose } from "../../query/cameras.js";
 import { type CameraOfImage, checked, lensOf, parametersOf, numbersIn, textLines } from "./camera-file.js";
 import { countIn, numberIn } from "../../formats/numbers.js";
 import { wordsOf } from "../../formats/text.js";
-import { HprError } from "../../base/errors.js";
 import { allocating } from "../../base/memory.js";
+import { rowsOf } from "../../query/orient-normals.js";
 import type { SeenBy } from "../../query/surveys.js";
 
 /** @param pose QW, QX, QY, QZ, TX, TY, TZ: from the world to the camera */
@@ -184,10 +184,8 @@ export async function readImageLines(
  *
  * @throws HprError `option` for an argument that is no answer of `seenBy`, `too-large`.
  */
-export function colmapVis({ offsets, cameras }: Pick<SeenBy, "offsets" | "cameras">): Uint8Array<ArrayBuffer> {
-  if (offsets.length === 0 || offsets.at(-1) !== cameras.length) {
-    throw new HprError("option", "colmapVis needs what seenBy of a cloud answers");
-  }
+export function colmapVis(seenBy: Pick<SeenBy, "offsets" | "cameras">): Uint8Array<ArrayBuffer> {
+  const { offsets, values: cameras } = rowsOf(seenBy, "cameras", 1, Uint32Array);
   const count = offsets.length - 1;
   const file = allocating(`${count} rows`, () => new DataView(new ArrayBuffer(8 + 4 * (count + cameras.length))));
   file.setBigUint64(0, BigInt(count), true);
