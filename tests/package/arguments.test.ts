@@ -6,6 +6,7 @@ import { bumpySphere, problemOf, readyPackage } from "./support";
 
 const hpr = await readyPackage();
 const { HprError, PointCloud, WorkerPointCloud } = hpr;
+const { colmapVis } = await import("hidden-point-removal/files");
 
 const positions = bumpySphere(3, 3000);
 const cloud = new PointCloud(positions);
@@ -30,6 +31,8 @@ class Vector {
 const far = [0.5, 1, 5] as const;
 const CAMERA = hpr.cameraFromPose([0, 0, 5], [0, 0, 0, 1], hpr.intrinsicsFromFieldOfView(50, 64, 48), "opengl");
 
+const IMAGE = { data: Float32Array.from({ length: 64 * 48 }, (_, i) => i), width: 64, height: 48 };
+
 type AnyCloud = typeof cloud | typeof remote;
 type Place = { x: number; y: number; z: number } | readonly number[];
 
@@ -48,6 +51,8 @@ const QUESTIONS: Record<string, (cloud: AnyCloud, at: Place, more: object) => un
   visibilityMap: async (one, at, more) => (await one.visibilityMap(at, more)).hides(positions),
   reconstruct: (one, at, more) => one.reconstruct(at, more),
   illuminate: (one, at, more) => one.illuminate([at], more),
+  calibrate: (one, at, more) => one.calibrate([{ viewpoint: at, indices: [0, 1, 2] }], more),
+  transfer: (one, _, more) => hpr.transfer(one as never, [CAMERA], [IMAGE], more),
 };
 
 it.each(Object.keys(QUESTIONS))("%s takes vectors of any class, and records without a prototype", async (name) => {
@@ -87,6 +92,12 @@ it.each(Object.keys(QUESTIONS))("%s in a worker rejects with the reason of its s
 
 it.each<[string, () => unknown]>([
   ["transfer", () => hpr.transfer(undefined as never, [], [])],
+  ["transfer", () => hpr.transfer(cloud, [], null as never)],
+  ["transfer", () => hpr.transfer(cloud, [CAMERA], [{ data: IMAGE.data, width: 64n, height: 48 }] as never)],
+  ["calibrate", () => cloud.calibrate([null] as never)],
+  ["colmapVis", () => colmapVis(null as never)],
+  ["colmapVis", () => colmapVis({ offsets: { at: () => 0, length: 1 }, cameras: [] } as never)],
+  ["orientNormals", () => hpr.orientNormals(new Float32Array(3), null as never)],
   ["intrinsicsFromFieldOfView", () => hpr.intrinsicsFromFieldOfView(1n as never, 2, 2)],
   ["intrinsicsFromFieldOfView", () => hpr.intrinsicsFromFieldOfView(50, 2n as never, 2)],
   ["cameraFromPose", () => hpr.cameraFromPose({ length: 1e15 }, [0, 0, 0, 1], CAMERA)],

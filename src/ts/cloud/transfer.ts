@@ -124,12 +124,13 @@ class TransferTask extends SurveyTask<Transferred> {
     requireSpace("transfer", dimension);
     refuseScores(given, "transfer");
     const seats = readCameras(cameras);
-    const own = readImages(images, seats, copies);
-    const asked = { ...given, ...(!isChosen && { looks: 3 }), scores: weigh === "score" };
+    const read = readImages(images, seats, copies);
+    const own = { ...(!isChosen && { looks: 3 }), scores: weigh === "score" };
+    const asked = Object.assign(Object.create(null) as object, given, own);
     super({ seats, settings: viewSettings(asked, dimension), towards: weigh === "angle" }, progress);
     const { merge: merges, weights, sampling: samplings } = TRANSFER_ROWS;
     this.#cameras = seats;
-    this.#images = own;
+    this.#images = read;
     this.#how = [
       merges.words.indexOf(merge),
       weigh === undefined ? 0 : 1 + weights.words.indexOf(weigh),

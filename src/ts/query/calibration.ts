@@ -66,7 +66,8 @@ export function calibrationAnswer(
 /** The options of a view among them, with three looks unless they say otherwise. */
 function looking(given: object): VisibilityOptions {
   const own = Object.entries(given).filter(([name]) => VIEW_OPTIONS.includes(name));
-  return { looks: 3, ...Object.fromEntries(own) };
+  // Without a prototype: what somebody added to that is no option.
+  return Object.assign(Object.create(null) as VisibilityOptions, { looks: 3 }, Object.fromEntries(own));
 }
 
 /** Refuses stations without points, and those whose masks or indices do not fit a cloud of so many indices. */

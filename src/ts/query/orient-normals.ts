@@ -77,5 +77,5 @@ export function rowsOf<T extends Float32Array | Uint32Array>(
     width * rows.at(-1)! === own?.length &&
     rows.every((offset, i, all) => i === 0 || offset >= all[i - 1]!);
   if (!isWhole) throw new HprError("option", `seenBy must be what seenBy of a cloud answers, got ${describe(given)}`);
-  return { offsets: rows, values: own! };
+  return { offsets: rows, values: own };
 }
