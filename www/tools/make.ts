@@ -133,7 +133,7 @@ export function wayBetween({ positions }: Placed, from: number, to: number, { sc
 
 /** A length to the centimeter, or with three digits if that is more. Without a unit it has six digits. */
 export function measured(value: number, unit: Unit | null): string {
-  const decimals = unit ? Math.max(0, 2 + Math.round(Math.log10(unit.meters))) : 0;
+  const decimals = unit ? Math.max(0, 2 + Math.ceil(Math.log10(unit.meters))) : 0;
   const three = value === 0 ? 0 : 2 - Math.floor(Math.log10(Math.abs(value)));
   const digits = unit ? Number(value.toFixed(Math.min(20, Math.max(decimals, three)))) : Number(value.toPrecision(6));
   const text =
