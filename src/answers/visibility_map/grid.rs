@@ -17,7 +17,7 @@ use crate::view::resolved::normalized;
 const STEP: usize = 16;
 const FEW: usize = 4096;
 /// How many points there are for each cell, of those that are about as near as the nearest one beside them.
-const NEAR_PER_CELL: f64 = 1.25;
+const NEAR_PER_CELL: f64 = 2.0;
 /// At most so many cells for each that points are in, so that a grid takes little memory.
 const MOST_EMPTY: f64 = 8.0;
 const LEAST_CELLS: f64 = 64.0;

@@ -24,7 +24,7 @@ use glam::DVec3;
 
 use crate::answers::visibility_map::grid::{Grid, LEVELS};
 use crate::base::allocation::{OutOfMemory, filled};
-use crate::base::real::{larger, root_of_largest, smaller, square_root};
+use crate::base::real::{larger, root_of_largest, square_root};
 use crate::cloud::points::Points;
 use crate::flip::inversion::Flip;
 use crate::hull::turned;
@@ -209,7 +209,12 @@ impl Level {
                     for right in 0..2 {
                         let at = run.start + at + right;
                         let other = (finer.w[at], finer.x[at] + right as f64, finer.y[at] + up);
-                        best = if other.0 < best.0 { other } else { best };
+                        let is_less = other.0 < best.0;
+                        best = (
+                            chosen(is_less, other.0, best.0),
+                            chosen(is_less, other.1, best.1),
+                            chosen(is_less, other.2, best.2),
+                        );
                     }
                 }
                 (w[column], x[column], y[column]) = (best.0, 0.5 * best.1, 0.5 * best.2);
@@ -230,7 +235,7 @@ impl Level {
             for (column, to) in to[1..].iter_mut().step_by(2).enumerate() {
                 let rising = between(low[column], high[column + 1]);
                 let falling = between(low[column + 1], high[column]);
-                *to = smaller(rising, falling);
+                *to = least(rising, falling);
             }
         }
     }
@@ -289,7 +294,7 @@ impl Level {
 fn lower_to_means(to: &mut [f64], a: &[f64], b: &[f64]) {
     for ((to, a), b) in to.iter_mut().zip(a).zip(b) {
         let mean = 0.5 * (a + b);
-        *to = smaller(*to, mean);
+        *to = least(*to, mean);
     }
 }
 
@@ -316,24 +321,29 @@ fn lower_row(
         let (ac, bd) = (cross(a, c), cross(b, d));
         // At each diagonal, the triangle on the side of 0.
         let pick = |first: bool, p: [f64; 3], q: [f64; 3]| {
-            core::array::from_fn(|k| if first { p[k] } else { q[k] })
+            core::array::from_fn(|k| chosen(first, p[k], q[k]))
         };
         let right = ac < 0.0;
-        let weights = [
-            if right { bc } else { cd },
-            ac.abs(),
-            if right { ab } else { da },
-        ];
+        let weights = [chosen(right, bc, cd), ac.abs(), chosen(right, ab, da)];
         let one = bound(i, weights, [a, pick(right, b, d), c]);
         let above = bd < 0.0;
-        let weights = [
-            if above { cd } else { da },
-            bd.abs(),
-            if above { bc } else { ab },
-        ];
+        let weights = [chosen(above, cd, da), bd.abs(), chosen(above, bc, ab)];
         let two = bound(i, weights, [b, pick(above, c, a), d]);
-        to[i] = smaller(to[i], smaller(one, two));
+        to[i] = least(to[i], least(one, two));
     }
+}
+
+/// One of two numbers. WebAssembly engines make a branch of a choice between floats, which no processor could guess here.
+#[inline(always)]
+fn chosen(is_first: bool, first: f64, second: f64) -> f64 {
+    let keep = u64::from(is_first).wrapping_neg();
+    f64::from_bits(first.to_bits() & keep | second.to_bits() & !keep)
+}
+
+/// The smaller one of two numbers that are not negative: they are in the order of their bits.
+#[inline(always)]
+fn least(a: f64, b: f64) -> f64 {
+    f64::from_bits(a.to_bits().min(b.to_bits()))
 }
 
 /// Of equal lengths, as the compiler must know to leave out checks.
@@ -359,5 +369,5 @@ fn interpolated([p, q, r]: [f64; 3], champions: [[f64; 3]; 3]) -> f64 {
     let (to_q, to_r) = (of_q - of_p, of_r - of_p);
     let bound = of_p + (q * to_q + r * to_r) / sum + PER_RANGE * (to_q.abs() + to_r.abs());
     let is_sure = (p >= INSIDE) & (q >= INSIDE) & (r >= INSIDE) & (sum >= LEAST_AREA);
-    if is_sure { bound } else { NONE }
+    chosen(is_sure, bound, NONE)
 }
