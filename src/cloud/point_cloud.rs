@@ -15,7 +15,7 @@ use crate::cloud::points::{Given, Points, Position, checked_len, is_finite};
 use crate::cloud::selection::Region;
 use crate::cloud::sequence::Sequence;
 use crate::cloud::spatial::{Bounds, HilbertCurve};
-use crate::cloud::statistics::{Statistics, sample_of};
+use crate::cloud::statistics::{Sampled, Statistics, sample_of};
 
 /// The share of a cloud's building that is done when its points are checked, and when
 /// they are sorted.
@@ -57,7 +57,7 @@ pub struct PointCloud {
 pub(crate) struct Kept {
     /// The cloud of the points in a region.
     pub within: Option<(Region, Box<PointCloud>)>,
-    pub sample: Once<Arc<[u32]>>,
+    pub sample: Once<Arc<Sampled>>,
     pub statistics: Once<Statistics>,
     pub noise: Once<Arc<Noise>>,
     pub surface: Once<Surface>,
@@ -299,19 +299,14 @@ impl PointCloud {
     }
 
     pub(crate) fn statistics(&self) -> Result<Statistics, OutOfMemory> {
-        let measure = || {
-            Statistics::measure(
-                &self.sequence.points,
-                &self.bounds,
-                &self.measured_places()?,
-            )
-        };
+        let measure =
+            || Statistics::measure(&self.sequence.points, &self.bounds, &*self.sampled()?);
         self.kept.statistics.get(measure)
     }
 
-    /// The places of the points that are measured.
-    fn measured_places(&self) -> Result<Arc<[u32]>, OutOfMemory> {
-        let choose = || Ok(Arc::from(sample_of(&self.sequence.points, &self.bounds)?));
+    /// The points that are measured.
+    fn sampled(&self) -> Result<Arc<Sampled>, OutOfMemory> {
+        let choose = || Ok(Arc::new(sample_of(&self.sequence.points, &self.bounds)?));
         self.kept.sample.get(choose)
     }
 
@@ -320,7 +315,7 @@ impl PointCloud {
         let measure = || {
             Ok(Arc::new(Noise::of(
                 &self.sequence.points,
-                &self.measured_places()?,
+                &self.sampled()?.places,
             )?))
         };
         self.kept.noise.get(measure)

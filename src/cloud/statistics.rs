@@ -43,22 +43,22 @@ pub(crate) struct Statistics {
 }
 
 impl Statistics {
-    /// Measures `points`: distinct, finite, along the Hilbert curve. `sample` holds places among them.
+    /// Measures `points`, distinct, finite, and along the Hilbert curve, at a sample of them.
     pub(crate) fn measure(
         points: &Points,
         bounds: &Bounds,
-        sample: &[u32],
+        Sampled { centroid, places }: &Sampled,
     ) -> Result<Self, OutOfMemory> {
         let n = points.len();
         if n == 0 {
             return Ok(Self::default());
         }
         // Along the curve: neighbors are near each other, and each run is one region.
-        let mut places: Vec<Keyed> = with_capacity(sample.len())?;
-        places.extend(sample.iter().map(|&place| (u64::from(place), place)));
-        sort_keyed(&mut places);
-        let mut sample: Vec<u32> = with_capacity(places.len())?;
-        sample.extend(places.iter().map(|&(_, place)| place));
+        let mut keyed: Vec<Keyed> = with_capacity(places.len())?;
+        keyed.extend(places.iter().map(|&place| (u64::from(place), place)));
+        sort_keyed(&mut keyed);
+        let mut sample: Vec<u32> = with_capacity(keyed.len())?;
+        sample.extend(keyed.iter().map(|&(_, place)| place));
         let spacings = sampled_spacings(points, &sample)?;
         let spacing = surface::mean(&spacings);
         let longest = surface::longest(&spacings)?;
@@ -78,7 +78,7 @@ impl Statistics {
             core::array::from_fn(|axis| surface::moments(&areas, &|number| point(number)[axis]));
         Ok(Self {
             count: n,
-            centroid: centroid(points, bounds),
+            centroid: *centroid,
             spacing,
             widening,
             gap,
@@ -115,17 +115,24 @@ fn sampled_spacings(points: &Points, sample: &[u32]) -> Result<Vec<f64>, OutOfMe
     Ok(spacings)
 }
 
-/// The places of at most [`SAMPLES`] points, in the order of their distance from the centroid: the middle of
-/// each of so many even runs. So it does not matter where the cloud lies, and how it is turned.
-#[inline(never)]
-pub(crate) fn sample_of(points: &Points, bounds: &Bounds) -> Result<Vec<u32>, OutOfMemory> {
+/// The centroid of a cloud, and the places of at most [`SAMPLES`] points, in the order of their distance from
+/// it: the middle of each of so many even runs. So it does not matter where the cloud lies, and how it is turned.
+pub(crate) struct Sampled {
+    centroid: [f64; 3],
+    pub places: Vec<u32>,
+}
+
+pub(crate) fn sample_of(points: &Points, bounds: &Bounds) -> Result<Sampled, OutOfMemory> {
     let n = points.len();
     let count = n.min(SAMPLES);
-    let mut sample: Vec<u32> = with_capacity(count)?;
-    if n == 0 {
-        return Ok(sample);
-    }
+    let mut places: Vec<u32> = with_capacity(count)?;
     let center = centroid(points, bounds);
+    if n == 0 {
+        return Ok(Sampled {
+            centroid: center,
+            places,
+        });
+    }
     // In this unit no square overflows.
     let unit = power_of_two_below((1.0 / bounds.diagonal()).min(f64::MAX));
     let squared = |p: [f64; 3]| {
@@ -165,9 +172,12 @@ pub(crate) fn sample_of(points: &Points, bounds: &Bounds) -> Result<Vec<u32>, Ou
             }
             last += 1;
         }
-        sample.push(members[(before + rank - inside[shell]) as usize].1);
+        places.push(members[(before + rank - inside[shell]) as usize].1);
     }
-    Ok(sample)
+    Ok(Sampled {
+        centroid: center,
+        places,
+    })
 }
 
 /// The mean distance to the `found` points, nearest first, and to one `added` point, whose squared
