@@ -1,1 +1,2 @@
-globalThis.TextDecoder = require("node:util").TextDecoder;
+const { TextDecoder, TextEncoder } = require("node:util");
+Object.assign(globalThis, { TextDecoder, TextEncoder });
