@@ -287,7 +287,8 @@ export class Viewer {
     this.#shown.before = viewpoint;
     // From another place, the visible points leave a gap like a shadow.
     const isHere = isSamePlace(from, viewpoint, cloud.radius) || isStandIn(cloud, from, before);
-    this.stage.setAll({ opacity: isHere ? 0 : 1 });
+    // Without an answer, the filter draws all points itself.
+    this.stage.setAll({ opacity: isHere || inquiry.filter.answer === null ? 0 : 1 });
     this.onBusy(inquiry.busy, this.#shown.byMap);
   }
 
