@@ -82,12 +82,13 @@ function typescript(groups: Record<string, Group>): string {
   const names = Object.entries(groups);
   return [
     `// Made from ${TABLE} by scripts/build/options.ts.`,
-    `import type { Camera } from "./camera.js";`,
+    `import type { ImageCamera } from "./camera.js";`,
     `import type { Row } from "./options.js";`,
     `import type { Viewpoint } from "./positions.js";`,
-    `import type { Cone, Inversion, ResolvedInversion, Within } from "./option-types.js";`,
+    `import type { Cone, Inversion, ResolvedInversion, Within, Without } from "./option-types.js";`,
     "",
-    ...names.flatMap(([, group]) => interfaceOf(group, groups)),
+    ...waysOf(groups["view"]!),
+    ...names.flatMap(([, group]) => typeOfGroup(group, groups)),
     ...names.flatMap(([name, { extends: base, options }]) => [
       `export const ${constant(name)} = {`,
       ...(base === undefined ? [] : [`  ...${constant(base)},`]),
@@ -100,15 +101,40 @@ function typescript(groups: Record<string, Group>): string {
 
 const constant = (group: string) => `${group.toUpperCase()}_ROWS`;
 
-function interfaceOf({ interface: name, extends: base, doc, options }: Group, groups: Record<string, Group>): string[] {
+/** The largest sets of options that go together: what is left when each of two that exclude each other had to go. */
+function waysOf({ options }: Group): string[] {
+  const split = (names: string[]): string[][] => {
+    const one = names.find((name) => options[name]!.excludes?.some((other) => names.includes(other)));
+    if (one === undefined) return [names];
+    const excluded = options[one]!.excludes!;
+    return [[one], excluded].flatMap((gone) => split(complete(names.filter((name) => !gone.includes(name)))));
+  };
+  const complete = (names: string[]) => names.filter((name) => names.includes(options[name]!.needs ?? name));
+  const ways = split(Object.keys(options)).map((names) => {
+    const without = Object.keys(options).filter((name) => !names.includes(name));
+    const needed = new Set(names.flatMap((name) => options[name]!.needs ?? []));
+    const given = Array.from(needed, (name) => ` & { ${name}: ${typeOf(options[name]!)} }`).join("");
+    return `  | (Without<${without.map((name) => JSON.stringify(name)).join(" | ")}>${given})`;
+  });
+  return [
+    ...comment("Which options of a view go together. Others throw `option`.", ""),
+    "export type OneWay =",
+    ...new Set(ways),
+    "  ;",
+    "",
+  ];
+}
+
+/** A type, because an interface cannot extend one of which some options exclude others. */
+function typeOfGroup({ interface: name, extends: base, doc, options }: Group, groups: Record<string, Group>): string[] {
   return [
     ...comment(doc, ""),
-    `export interface ${name}${base === undefined ? "" : ` extends ${groups[base]!.interface}`} {`,
+    `export type ${name} = ${base === undefined ? "OneWay" : groups[base]!.interface} & {`,
     ...Object.entries(options).flatMap(([option, row]) => [
       ...comment(row.doc, "  "),
       `  ${option}${row.required ? `: ${typeOf(row)}` : `?: ${typeOf(row)} | undefined`};`,
     ]),
-    "}",
+    "};",
     "",
   ];
 }

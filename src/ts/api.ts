@@ -12,7 +12,7 @@ export type { PointCloudOptions } from "./query/options.js";
 export type { Positions, Viewpoint } from "./query/positions.js";
 export type { NumberArray } from "./base/typed-arrays.js";
 export type { IlluminationOptions, ReconstructionOptions } from "./query/queries.js";
-export type { Camera, CameraModel, Intrinsics, Pose } from "./query/camera.js";
+export type { ImageCamera, CameraModel, Intrinsics, Pose } from "./query/camera.js";
 export {
   cameraFromPose,
   cameraFromThree,
@@ -26,8 +26,8 @@ export { orientNormals } from "./query/orient-normals.js";
 export type { Cone, VisibilityMapOptions } from "./query/map-options.js";
 export type { Panorama, PanoramaOptions } from "./query/panorama-options.js";
 export type { CoverageOptions, Placement, PlacementOptions, SeenBy } from "./query/surveys.js";
-export type { SurfaceKind, Within } from "./query/option-types.js";
-export type { Inversion, RadiusRule, ResolvedInversion, VisibilityOptions } from "./query/view-options.js";
+export type { SurfaceKind, Within, Without } from "./query/option-types.js";
+export type { Inversion, OneWay, RadiusRule, ResolvedInversion, VisibilityOptions } from "./query/view-options.js";
 export { initSync } from "./instance/init-sync.js";
 export { VisibilityMap, type VisibilityMapUniforms } from "./cloud/visibility-map.js";
-export type { CameraView, Reconstruction, Visibility } from "./cloud/visibility.js";
+export type { CameraView, Reconstruction, ScoredIf, Visibility } from "./cloud/visibility.js";

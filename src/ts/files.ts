@@ -6,4 +6,4 @@ export { colmapVis } from "./files/cameras/colmap.js";
 export type { Crs, Unit } from "./formats/las/crs.js";
 export type { Values } from "./formats/numbers.js";
 export { HprError, type HprErrorCode } from "./base/errors.js";
-export type { Camera, CameraModel, Intrinsics, Pose } from "./query/camera.js";
+export type { ImageCamera, CameraModel, Intrinsics, Pose } from "./query/camera.js";

@@ -6,6 +6,6 @@ export {
   type VisiblePointsProps,
 } from "./react-three-fiber/hooks.js";
 export type { HiddenPointFilter } from "./three/filter.js";
-export type { HiddenPointFilterOptions } from "./three/options.js";
+export type { AskedOptions, HiddenPointFilterOptions } from "./three/options.js";
 export type { Inversion, RadiusRule, VisibilityOptions } from "./query/view-options.js";
-export type { AnswerKind, FollowOptions } from "./follow/options.js";
+export type { AnswerKind, FollowedOptions, FollowOptions } from "./follow/options.js";

@@ -6,8 +6,8 @@ export type { Positions } from "./query/positions.js";
 export type { NumberArray } from "./base/typed-arrays.js";
 export type { IlluminationOptions, ReconstructionOptions } from "./query/queries.js";
 export type { Inversion, RadiusRule, ResolvedInversion, VisibilityOptions } from "./query/view-options.js";
-export type { Reconstruction, Visibility } from "./cloud/visibility.js";
-export type { AnswerKind, FollowOptions } from "./follow/options.js";
+export type { Reconstruction, ScoredIf, Visibility } from "./cloud/visibility.js";
+export type { AnswerKind, FollowedOptions, FollowOptions } from "./follow/options.js";
 export { type StreamedAnswer, ViewStream, type ViewStreamOptions } from "./worker/view-stream.js";
 export {
   type RequestOptions,

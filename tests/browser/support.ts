@@ -213,7 +213,7 @@ export async function answerInNode(
   { viewpoint, answer }: Status,
   given: Pick<VisibilityOptions, "radius" | "exponent"> = {},
 ) {
-  const options = answer === "looks" ? { looks: 3 as const } : given;
+  const options = (answer === "looks" ? { looks: 3 } : given) as VisibilityOptions;
   const { count, radius, exponent } = await inNode(positions, (cloud) => cloud.visibleFrom(viewpoint, options));
   return { visible: count, radius, exponent };
 }

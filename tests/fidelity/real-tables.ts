@@ -108,7 +108,7 @@ function scoredViews(of: Judged): Scored[] {
         row: of.row,
         half: view.half,
         wrong: Object.fromEntries(wrong) as Scored["wrong"],
-        scores: Float64Array.from(scores!.filter(isJudged)),
+        scores: Float64Array.from(scores.filter(isJudged)),
         labels: view.labels.filter(isJudged),
       };
     });

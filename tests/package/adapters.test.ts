@@ -139,7 +139,10 @@ describe.each(ADAPTERS.map((adapter) => [adapter.name, adapter] as const))("%s",
       const all = await page({ settle: undefined });
       const filters = all.flatMap(({ filter }) => filter ?? []);
       await rest(all, HERE);
-      const set = async (asked: Parameters<HiddenPointFilter["setOptions"]>[0], options: VisibilityOptions = asked) => {
+      const set = async (
+        asked: Parameters<HiddenPointFilter["setOptions"]>[0],
+        options = asked as VisibilityOptions,
+      ) => {
         for (const { changes } of all) changes.length = 0;
         for (const filter of filters) filter.setOptions(asked);
         expect(filters.map(({ settled }) => settled)).toEqual(spheres.map(() => false));

@@ -1,7 +1,7 @@
 import { PerspectiveCamera, OrthographicCamera, Vector3 } from "three";
 import { afterAll, expect, it, vi } from "vitest";
 
-import type { Camera } from "hidden-point-removal";
+import type { ImageCamera } from "hidden-point-removal";
 
 import { bumpySphere, expectRefusal, readyPackage } from "./support";
 
@@ -214,7 +214,17 @@ it.each(Object.entries(LENSES))("%s is COLMAP's model", async (model, [distortio
   const cloud = new PointCloud(positions);
   const three = threeCamera();
   const pose = { worldToCamera: three.matrixWorldInverse.elements, convention: "opengl" as const };
-  const camera = { ...pose, model, distortion, fx: 600, fy: 500, cx: 310, cy: 250, width: 640, height: 480 } as Camera;
+  const camera = {
+    ...pose,
+    model,
+    distortion,
+    fx: 600,
+    fy: 500,
+    cx: 310,
+    cy: 250,
+    width: 640,
+    height: 480,
+  } as ImageCamera;
   const seen = cloud.visibleFromCamera(camera);
   expect(seen.count).toBeGreaterThan(300);
   const expected = Array.from(seen.indices).flatMap((index) => {

@@ -97,8 +97,8 @@ describe("the options of a view have the effect of the library's", () => {
     await done(...FROM, "--looks", "3", "--format", "scores", "-o", "scores.npy");
     const { header, data } = numpy(read("scores.npy"));
     expect(header).toBe(`{'descr': '<f4', 'fortran_order': False, 'shape': (${COUNT},), }`);
-    expect(data.equals(Buffer.from(scores!.buffer))).toBe(true);
-    const above = (threshold: number) => [...scores!.keys()].filter((i) => scores![i]! >= threshold);
+    expect(data.equals(Buffer.from(scores.buffer))).toBe(true);
+    const above = (threshold: number) => [...scores.keys()].filter((i) => scores[i]! >= threshold);
     for (const threshold of [0.25, 0.75]) {
       await done(...FROM, "--looks", "3", "--score-threshold", String(threshold), "-o", "view.idx");
       expect(numbers("view.idx")).toEqual(above(threshold));
@@ -198,7 +198,7 @@ describe("--viewpoints", () => {
       "sure-{name}.mask",
     );
     const { scores } = cloud.visibleFrom(PLACES.back, { looks: 3, scores: true });
-    expect(numbers("sure-back.mask")).toEqual([...scores!].map((score) => (score >= Math.fround(0.6) ? 1 : 0)));
+    expect(numbers("sure-back.mask")).toEqual([...scores].map((score) => (score >= Math.fround(0.6) ? 1 : 0)));
   });
 
   it.each([

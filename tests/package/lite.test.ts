@@ -61,7 +61,7 @@ describe.each([2, 3] as const)("in %i dimensions, random clouds", (dimension) =>
       const compare = () => {
         for (let question = 0; question < 3; question++) {
           const [viewpoint, options] = [place(), optionsOf(random)];
-          const [expected, answer] = clouds.map((cloud) => cloud.visibleFrom(viewpoint, options));
+          const [expected, answer] = clouds.map((cloud) => cloud.visibleFrom(viewpoint, options as object));
           expect(told(answer!)).toEqual(told(expected!));
           expect(answer!.mask()).toEqual(expected!.mask());
           expect(clouds[1].autoRadius(viewpoint)).toEqual(clouds[0].autoRadius(viewpoint));

@@ -34,6 +34,12 @@ it("the adapters' types compile", () => {
   expect(complaints("adapters.ts", "", "--module", "nodenext", "--skipLibCheck", "--lib", "es2023,dom")).toBe("");
 });
 
+it("the types refuse what throws, and have the scores that are asked for", () => {
+  expect(complaints("refused.ts", "", "--module", "nodenext", "--skipLibCheck", "--lib", "es2023,dom", ...EXACT)).toBe(
+    "",
+  );
+});
+
 it("a wrong type is found", () => {
   expect(complaints("consumer.ts", "", "--module", "nodenext", "--lib", "es5")).toContain("error TS");
 });

@@ -181,7 +181,7 @@ export class Inquiry {
             : radius),
       ...(inversion === "spherical" ? {} : { inversion: this.#inversion(inversion) }),
       ...(looks === 0 ? {} : { looks, thickness, surface }),
-    };
+    } as unknown as VisibilityOptions;
   }
 
   dispose(): void {

@@ -1,5 +1,5 @@
 import { transfer, type Transferred, type TransferOptions } from "../cloud/transfer.js";
-import { type Camera, isCamera } from "../query/camera.js";
+import { type ImageCamera, isCamera } from "../query/camera.js";
 import type { SeenBy } from "../query/surveys.js";
 import type { VisibilityOptions } from "../query/view-options.js";
 import { WorkerPointCloud } from "../worker.js";
@@ -78,9 +78,9 @@ async function* answers(
   onProgress: OnProgress,
 ): AsyncGenerator<Omit<Answer, "length" | "skipped">> {
   const { options, threshold } = question;
-  const from = async (seat: number[] | Camera) => {
+  const from = async (seat: number[] | ImageCamera) => {
     if (isCamera(seat)) {
-      const { indices, pixels, depths, note } = await cloud.visibleFromCamera(seat as Camera, options);
+      const { indices, pixels, depths, note } = await cloud.visibleFromCamera(seat as ImageCamera, options);
       return { indices, image: { pixels, depths }, note };
     }
     const { indices, scores } = await cloud.visibleFrom(seat as number[], options);

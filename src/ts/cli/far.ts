@@ -1,5 +1,5 @@
 // Notes viewpoints that are so far from the cloud that their coordinates are probably of another system.
-import { type Camera, isCamera } from "../query/camera.js";
+import { type ImageCamera, isCamera } from "../query/camera.js";
 import type { Question } from "./ask.js";
 
 /** How many extents of the cloud a viewpoint may be from it. The cloud then fills half a degree of the view. */
@@ -22,13 +22,13 @@ export function farNote(positions: Float32Array | Float64Array, question: Questi
 function viewpointsOf({ seats }: Question): { name: string; viewpoint: readonly number[] }[] {
   return seats.map(({ name, seat }) =>
     isCamera(seat)
-      ? { name: `the camera ${name}`, viewpoint: placeOf(seat as Camera) }
+      ? { name: `the camera ${name}`, viewpoint: placeOf(seat as ImageCamera) }
       : { name: `the viewpoint${name === "" ? "" : ` ${name}`}`, viewpoint: seat as number[] },
   );
 }
 
 /** The place of a camera whose pose was read, except for the rounding of its numbers. */
-function placeOf({ cameraToWorld, worldToCamera: m }: Camera): number[] {
+function placeOf({ cameraToWorld, worldToCamera: m }: ImageCamera): number[] {
   if (m === undefined) return Array.from(cameraToWorld).slice(12, 15);
   return [0, 4, 8].map((i) => -(m[i]! * m[12]! + m[i + 1]! * m[13]! + m[i + 2]! * m[14]!));
 }

@@ -8,18 +8,18 @@ import { cell, isComment, separatorOf, split } from "../formats/table-words.js";
 import { bytesSource, lines as linesOf } from "../formats/source.js";
 import { trimmed } from "../formats/text.js";
 import { readCameras } from "../files/read-cameras.js";
-import type { Camera } from "../query/camera.js";
+import type { ImageCamera } from "../query/camera.js";
 import { InputProblem } from "./files.js";
 
 /** A viewpoint, or a camera in its place. */
 export interface NamedSeat {
   name: string;
-  seat: number[] | Camera;
+  seat: number[] | ImageCamera;
 }
 
 /** A camera, and the image that it has taken. */
 export interface NamedCamera extends NamedSeat {
-  seat: Camera;
+  seat: ImageCamera;
   image: string;
 }
 

@@ -16,7 +16,7 @@ import {
   type PointCloudOptions,
 } from "../query/options.js";
 import type { Positions, Viewpoint } from "../query/positions.js";
-import type { Camera } from "../query/camera.js";
+import type { ImageCamera } from "../query/camera.js";
 import type { Panorama, PanoramaOptions } from "../query/panorama-options.js";
 import type { VisibilityMapOptions } from "../query/map-options.js";
 import type { IlluminationOptions, ReconstructionOptions } from "../query/queries.js";
@@ -32,8 +32,8 @@ import {
   surveyQuestion,
   type SurveyQuestion,
 } from "../query/surveys.js";
-import { type RadiusRule, VIEW_OPTIONS, type VisibilityOptions } from "../query/view-options.js";
-import type { CameraView, Reconstruction, Visibility } from "./visibility.js";
+import { type FollowedOptions, type RadiusRule, VIEW_OPTIONS, type VisibilityOptions } from "../query/view-options.js";
+import type { CameraView, Reconstruction, ScoredIf, Visibility } from "./visibility.js";
 import type { VisibilityMap } from "./visibility-map.js";
 
 /**
@@ -125,8 +125,11 @@ export class PointCloud {
    * @param viewpoint x, y, z (as many as the cloud has dimensions) in the cloud's units.
    * @throws HprError `viewpoint`, `option`, `radius`, `too-large`, `disposed`, `internal`.
    */
-  visibleFrom(viewpoint: Viewpoint, options?: VisibilityOptions): Visibility {
-    return this.#ask("visibleFrom", viewpoint, options);
+  visibleFrom<Scores extends boolean = false>(
+    viewpoint: Viewpoint,
+    options?: VisibilityOptions & { scores?: Scores | undefined },
+  ): ScoredIf<Scores> {
+    return this.#ask("visibleFrom", viewpoint, options) as ScoredIf<Scores>;
   }
 
   /**
@@ -211,7 +214,7 @@ export class PointCloud {
    *   `cameraFromThree`. Needs a cloud of dimension 3.
    * @throws HprError `viewpoint` for the camera, otherwise as {@link PointCloud.visibleFrom}.
    */
-  visibleFromCamera(camera: Camera, options?: VisibilityOptions): CameraView {
+  visibleFromCamera(camera: ImageCamera, options?: VisibilityOptions): CameraView {
     return this.#ask("visibleFromCamera", camera, options);
   }
 
@@ -250,7 +253,7 @@ export class PointCloud {
    * @throws HprError `option` also for `scores`; `too-large`; otherwise as
    *   {@link PointCloud.visibleFromCamera}.
    */
-  seenBy(cameras: readonly Camera[], options?: CoverageOptions): SeenBy {
+  seenBy(cameras: readonly ImageCamera[], options?: CoverageOptions): SeenBy {
     return this.#survey(surveyQuestion("seenBy", cameras, options));
   }
 
@@ -275,7 +278,7 @@ export class PointCloud {
    *   `thickness`, only this one is tried.
    * @throws HprError `option` also for stations without points; otherwise as {@link PointCloud.visibleFrom}.
    */
-  calibrate(stations: readonly Station[], options?: VisibilityOptions): Calibration {
+  calibrate(stations: readonly Station[], options?: FollowedOptions): Calibration {
     return this.#ask("calibrate", stations, options);
   }
 

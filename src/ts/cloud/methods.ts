@@ -137,7 +137,7 @@ export function readQuestion(
   args: readonly unknown[],
   others: readonly string[] = [],
 ): { query: Query; given: Record<string, unknown>; answer: (found: never) => unknown } {
-  const { count, rows, question, answer } = METHODS[name];
+  const { count, rows, question, answer } = METHODS[name] as Method<QueryKind, never>;
   const given = readOptions(args[count], rows, settings.dimension, others);
   const query = question(settings, given as never, ...args.slice(0, count));
   return { query, given, answer: (found) => answer(found, given) };

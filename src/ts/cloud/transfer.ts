@@ -3,7 +3,7 @@ import { describe, HprError } from "../base/errors.js";
 import { allocating } from "../base/memory.js";
 import { isNumberArray, type NumberArray, plainNumbers, typedArrayType } from "../base/typed-arrays.js";
 import { type Instance, requireInstance } from "../instance/instance.js";
-import type { Camera, CameraNumbers } from "../query/camera.js";
+import type { ImageCamera, CameraNumbers } from "../query/camera.js";
 import { TRANSFER_ROWS, type TransferOptions } from "../query/option-rows.js";
 import { type Checked, ownOf, requireSpace } from "../query/options.js";
 import { MAX_LENGTH } from "../query/positions.js";
@@ -42,7 +42,7 @@ export interface Transferred {
 
 /** A `WorkerPointCloud`. */
 interface InWorkers {
-  seenBy(cameras: readonly Camera[], options?: CoverageOptions): Promise<SeenBy>;
+  seenBy(cameras: readonly ImageCamera[], options?: CoverageOptions): Promise<SeenBy>;
 }
 
 /**
@@ -57,20 +57,20 @@ interface InWorkers {
  */
 export function transfer(
   cloud: PointCloud,
-  cameras: readonly Camera[],
+  cameras: readonly ImageCamera[],
   images: Iterable<TransferImage>,
   options?: TransferOptions,
 ): Transferred;
 /** The same for a `WorkerPointCloud`: its workers share the cameras, and the images stay here. An array of them is copied. */
 export function transfer(
   cloud: InWorkers,
-  cameras: readonly Camera[],
+  cameras: readonly ImageCamera[],
   images: Iterable<TransferImage>,
   options?: TransferOptions & { signal?: AbortSignal | undefined; latest?: boolean | undefined },
 ): Promise<Transferred>;
 export function transfer(
   cloud: PointCloud | InWorkers,
-  cameras: readonly Camera[],
+  cameras: readonly ImageCamera[],
   images: Iterable<TransferImage>,
   options?: TransferOptions,
 ): Transferred | Promise<Transferred> {

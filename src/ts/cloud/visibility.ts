@@ -39,6 +39,10 @@ export interface Visibility extends ChosenRadius {
   mask(): Uint8Array;
 }
 
+/** The answer to a question with the option `scores`, or without it. */
+export type ScoredIf<Scores extends boolean> = Visibility &
+  (Scores extends true ? { readonly scores: Float32Array } : unknown);
+
 /** The visible points of a view, and the mesh between them. */
 export interface Reconstruction extends Visibility {
   /**

@@ -6,6 +6,7 @@ import { asError, HprError } from "../base/errors.js";
 import {
   type AnswerKind,
   FOLLOW_OPTIONS,
+  type FollowedOptions,
   type FollowOptions,
   type FollowSettings,
   followSettings,
@@ -31,7 +32,7 @@ export type VisiblePointCloudLayerProps<DataT = unknown> = PointCloudLayerProps<
    */
   viewpoint?: readonly [number, number, number] | null;
   /** How each view is computed, and how answers follow the viewpoint. */
-  visibility?: VisibilityOptions & FollowOptions;
+  visibility?: FollowedOptions & FollowOptions;
   /**
    * A new answer is drawn. `answer` says what it is, and `visible` holds the indices of the points that are drawn.
    * Maps, by which the card leaves out points while the camera moves, are not told.
@@ -55,7 +56,7 @@ export interface VisibleAnswer {
 
 interface Own {
   viewpoint: readonly number[] | null;
-  visibility: VisibilityOptions & FollowOptions;
+  visibility: FollowedOptions & FollowOptions;
   onVisible: ((answer: VisibleAnswer) => void) | null;
   getPosition: unknown;
 }

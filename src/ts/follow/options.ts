@@ -1,6 +1,8 @@
 import { describe, HprError, naming } from "../base/errors.js";
 import { givenOptions, pick } from "../query/options.js";
-import { VIEW_OPTIONS, viewSettings, type VisibilityOptions } from "../query/view-options.js";
+import { type FollowedOptions, VIEW_OPTIONS, viewSettings, type VisibilityOptions } from "../query/view-options.js";
+
+export type { FollowedOptions };
 
 /**
  * What an answer is. `"operator"` is the exact answer of one flip. `"looks"` is an answer of two or three
@@ -78,9 +80,9 @@ function stagesOf(given: Record<string, unknown>, dimension: number): Stage<Visi
   const { settle } = given;
   const isFinal = dimension !== 3 || FINAL_OPTIONS.some((name) => view[name] !== undefined);
   if (settle === undefined && !isFinal) {
-    const looks: VisibilityOptions = { ...view, looks: 3 };
+    const looks = { ...view, looks: 3 } as VisibilityOptions;
     viewSettings({ ...looks }, dimension);
-    const plain = { ...view, thickness: undefined, surface: undefined };
+    const plain = { ...view, thickness: undefined, surface: undefined } as VisibilityOptions;
     return [stageOf(plain), stageOf(looks, REST)];
   }
   viewSettings({ ...view }, dimension);

@@ -9,7 +9,8 @@ import type { CloudNode } from "./node-set.js";
 import { NodeSet } from "./node-set.js";
 
 /** The options of a `HiddenPointFilter` for the cloud of all nodes, and a function that chooses the nodes. */
-export interface HiddenPointNodesFilterOptions extends Omit<HiddenPointFilterOptions, "cloud"> {
+export type HiddenPointNodesFilterOptions = HiddenPointFilterOptions & {
+  cloud?: undefined;
   /** Returns the present nodes. Default: every visible `Points` below the root. */
   nodes?: (() => Iterable<Points>) | undefined;
   /**
@@ -17,7 +18,7 @@ export interface HiddenPointNodesFilterOptions extends Omit<HiddenPointFilterOpt
    * (`"hide"`, by its layers). Refused nodes are drawn.
    */
   pending?: "draw" | "hide" | undefined;
-}
+};
 
 /**
  * Takes many `THREE.Points` as one cloud, and draws only the points that the camera sees. This is

@@ -1,13 +1,14 @@
 import { HprError } from "../base/errors.js";
 import { GatheredFilter } from "../nodes/gathered.js";
 import type { Space } from "../three/cameras.js";
+import type { Without } from "../query/option-types.js";
 import type { HiddenPointFilterOptions } from "../three/options.js";
 import { PotreeDrawing } from "./drawing.js";
 import type { Tile } from "./viewer.js";
 import { type PotreeViewer, requireViewer } from "./viewer.js";
 
 /** The options of a `HiddenPointFilter`. Potree has no second material for hidden points. */
-export type PotreeFilterOptions = Omit<HiddenPointFilterOptions, "dimMaterial" | "cloud">;
+export type PotreeFilterOptions = HiddenPointFilterOptions & Without<"dimMaterial" | "cloud">;
 
 const WORLD: Space = {
   updateWorldMatrix: () => undefined,

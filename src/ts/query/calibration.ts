@@ -60,7 +60,8 @@ export function calibrationAnswer(
   const mean = recall.reduce((sum, share) => sum + share, 0) / recall.length;
   const seen = Math.floor(100 * mean);
   const note = `the stations see ${seen} % of their own points: more thickness would show more hidden points than own ones`;
-  return { thickness, recall, shown, options: { ...looking(given), thickness }, ...(isLow && { note }) };
+  const options = Object.assign(looking(given), { thickness });
+  return { thickness, recall, shown, options, ...(isLow && { note }) };
 }
 
 /** The options of a view among them, with three looks unless they say otherwise. */

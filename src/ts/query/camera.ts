@@ -76,7 +76,7 @@ export type Pose =
  * camera's space (x to the right, y down, z forward) appears at u = fx·x/z + cx, v = fy·y/z + cy.
  * There is no shift by half a pixel: u = 0 is the left edge of the first pixel.
  */
-export type Camera = Intrinsics &
+export type ImageCamera = Intrinsics &
   Pose & {
     /**
      * The axes of the camera's space. OpenCV: y down, z forward. OpenGL (and three.js): y up, z backward.

@@ -1,7 +1,7 @@
 import { describe, HprError } from "../base/errors.js";
 import type { Intrinsics } from "./camera.js";
 
-/** A {@link Camera} whose pose is from the camera's space to the cloud's. */
+/** An {@link ImageCamera} whose pose is from the camera's space to the cloud's. */
 export type PosedCamera = Intrinsics & { cameraToWorld: ArrayLike<number>; convention: "opencv" | "opengl" };
 
 /**

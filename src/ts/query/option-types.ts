@@ -25,6 +25,9 @@ export type ResolvedInversion =
   // From tight to loose.
   | { readonly looks: readonly number[] };
 
+/** Options that may not be given. */
+export type Without<Option extends string> = { readonly [Name in Option]?: undefined };
+
 /** What a cloud is: even samples of a surface, a sensor's noise everywhere, or registered scans. */
 export type SurfaceKind = "clean" | "noisy" | "layered";
 

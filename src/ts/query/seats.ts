@@ -1,4 +1,4 @@
-import { type Camera, type CameraNumbers, isCamera, readCamera } from "./camera.js";
+import { type ImageCamera, type CameraNumbers, isCamera, readCamera } from "./camera.js";
 import { readEach, readViewpoint, type Viewpoint } from "./positions.js";
 import { requireSpace } from "./options.js";
 
@@ -6,7 +6,7 @@ import { requireSpace } from "./options.js";
 export type Seat = number[] | CameraNumbers;
 
 /** A viewpoint, or a camera in its place. */
-export type ViewpointOrCamera = Viewpoint | Camera;
+export type ViewpointOrCamera = Viewpoint | ImageCamera;
 
 /** Several viewpoints, or cameras in their place. An error says which one it is about. */
 export function readSeats(list: unknown, dimension: number, name: string): Seat[] {

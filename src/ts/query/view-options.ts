@@ -1,10 +1,19 @@
 import { describe, HprError } from "../base/errors.js";
-import { VIEW_ROWS, type VisibilityOptions } from "./option-rows.js";
-import type { Inversion, RadiusRule, ResolvedInversion } from "./option-types.js";
+import { type OneWay, VIEW_ROWS, type VisibilityOptions } from "./option-rows.js";
+import type { Inversion, RadiusRule, ResolvedInversion, Without } from "./option-types.js";
 import { type Checked, checkRows, entriesOf } from "./options.js";
 import { ALL_POINTS, type WithinSettings, withinSettings } from "./within.js";
 
-export type { Inversion, RadiusRule, ResolvedInversion, VisibilityOptions };
+export type { Inversion, OneWay, RadiusRule, ResolvedInversion, VisibilityOptions };
+
+/**
+ * The options of a view that has looks of its own. Without `radius`, `exponent`, `inversion` and `looks`, `thickness`
+ * and `surface` belong to these looks.
+ */
+export type FollowedOptions =
+  | VisibilityOptions
+  | (Without<"radius" | "exponent" | "inversion" | "looks" | "scores"> &
+      Pick<VisibilityOptions, "thickness" | "surface" | "within">);
 
 /** {@link VisibilityOptions}, checked for type, as the core reads them (src/wasm/options.rs). */
 export interface ViewSettings extends WithinSettings {

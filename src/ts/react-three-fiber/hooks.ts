@@ -17,7 +17,7 @@ import { HiddenPointFilter } from "../three/filter.js";
 import type { HiddenPointFilterOptions } from "../three/options.js";
 
 /** The options of a `HiddenPointFilter`, its state and its callbacks. */
-export interface UseHiddenPointFilterOptions extends HiddenPointFilterOptions {
+export type UseHiddenPointFilterOptions = HiddenPointFilterOptions & {
   /** While true, the same points stay drawn, even if the camera moves. Default false. */
   frozen?: boolean | undefined;
   /** While false, all points are drawn. Default true. */
@@ -26,7 +26,7 @@ export interface UseHiddenPointFilterOptions extends HiddenPointFilterOptions {
   onChange?: ((change: FilterChange) => void) | undefined;
   /** The points or a view are refused. Without this callback, the error is an unhandled rejection. */
   onError?: ((error: Error) => void) | undefined;
-}
+};
 
 /**
  * Draws only the points of a `<points>` that the canvas' camera sees. Pointer events hit only these

@@ -1,52 +1,59 @@
 import type { Material, Points } from "three";
 
 import { describe, HprError } from "../base/errors.js";
-import { FOLLOW_OPTIONS, type FollowOptions, type FollowSettings, followSettings } from "../follow/options.js";
+import {
+  FOLLOW_OPTIONS,
+  type FollowedOptions,
+  type FollowOptions,
+  type FollowSettings,
+  followSettings,
+} from "../follow/options.js";
 import { PointCloud } from "../cloud/cloud.js";
 import { givenOptions, pick } from "../query/options.js";
 import { readViewpoint } from "../query/positions.js";
-import { VIEW_OPTIONS, type VisibilityOptions } from "../query/view-options.js";
+import { VIEW_OPTIONS } from "../query/view-options.js";
 import { WorkerPointCloud } from "../worker/client.js";
 import type { Cloud } from "../worker/followed-cloud.js";
 import type { PatchMaterial } from "./map-material.js";
 
 /** The options of a filter. The options of `VisibilityOptions` set how each view is computed. */
-export interface HiddenPointFilterOptions extends VisibilityOptions, FollowOptions {
-  /**
-   * Whether answers are computed in a worker, which all filters of a page share. Until an answer
-   * arrives, the option `stale` says what is drawn. With `false`, `update` computes the answer at once
-   * and blocks. Default true.
-   */
-  worker?: boolean | undefined;
-  /**
-   * Hidden points are not drawn (`"hide"`, the default), or are drawn faintly (`"dim"`).
-   */
-  mode?: "hide" | "dim" | undefined;
-  /**
-   * The material of hidden points in mode `"dim"`. Default: a transparent copy of the points' own
-   * material, which must then be a `PointsMaterial` (or `PointsNodeMaterial`).
-   */
-  dimMaterial?: Material | undefined;
-  /**
-   * How points with a NaN or infinite coordinate are handled: `"error"` refuses the whole cloud,
-   * `"skip"` treats these points as hidden. Default `"error"`.
-   */
-  nonFinite?: "error" | "skip" | undefined;
-  /**
-   * A cloud of the same points in the same order, which the filter asks instead of a cloud of its own. It is not
-   * disposed of with the filter. `worker` and `nonFinite` are then those of the cloud. A function makes such a cloud,
-   * and makes it again when its worker is lost. The filter disposes of it.
-   */
-  cloud?: PointCloud | WorkerPointCloud | (() => Promise<WorkerPointCloud>) | undefined;
-  /**
-   * Where the zero of the points' space is in `cloud`: x, y, z in double precision. So a cloud keeps the coordinates of
-   * a map, and the points are drawn in single precision around their own zero. Default 0, 0, 0.
-   */
-  origin?: ArrayLike<number> | undefined;
-}
+export type HiddenPointFilterOptions = FollowedOptions &
+  FollowOptions & {
+    /**
+     * Whether answers are computed in a worker, which all filters of a page share. Until an answer
+     * arrives, the option `stale` says what is drawn. With `false`, `update` computes the answer at once
+     * and blocks. Default true.
+     */
+    worker?: boolean | undefined;
+    /**
+     * Hidden points are not drawn (`"hide"`, the default), or are drawn faintly (`"dim"`).
+     */
+    mode?: "hide" | "dim" | undefined;
+    /**
+     * The material of hidden points in mode `"dim"`. Default: a transparent copy of the points' own
+     * material, which must then be a `PointsMaterial` (or `PointsNodeMaterial`).
+     */
+    dimMaterial?: Material | undefined;
+    /**
+     * How points with a NaN or infinite coordinate are handled: `"error"` refuses the whole cloud,
+     * `"skip"` treats these points as hidden. Default `"error"`.
+     */
+    nonFinite?: "error" | "skip" | undefined;
+    /**
+     * A cloud of the same points in the same order, which the filter asks instead of a cloud of its own. It is not
+     * disposed of with the filter. `worker` and `nonFinite` are then those of the cloud. A function makes such a cloud,
+     * and makes it again when its worker is lost. The filter disposes of it.
+     */
+    cloud?: PointCloud | WorkerPointCloud | (() => Promise<WorkerPointCloud>) | undefined;
+    /**
+     * Where the zero of the points' space is in `cloud`: x, y, z in double precision. So a cloud keeps the coordinates of
+     * a map, and the points are drawn in single precision around their own zero. Default 0, 0, 0.
+     */
+    origin?: ArrayLike<number> | undefined;
+  };
 
-/** What a filter asks: options of a view, and what is asked at rest. */
-export type AskedOptions = VisibilityOptions & Pick<FollowOptions, "settle">;
+/** What is asked: options of a view, and those of the view at rest. */
+export type AskedOptions = FollowedOptions & Pick<FollowOptions, "settle">;
 
 /** {@link HiddenPointFilterOptions} with all defaults. The core checks the ranges in `view`. */
 export interface FilterSettings extends FollowSettings {

@@ -27,6 +27,7 @@ import type { Panorama, PanoramaOptions } from "../query/panorama-options.js";
 import type { RadiusRule, VisibilityOptions } from "../query/view-options.js";
 import type { PointCloud } from "../cloud/cloud.js";
 import { METHODS, type MethodName, readQuestion } from "../cloud/methods.js";
+import type { ScoredIf } from "../cloud/visibility.js";
 import { abortError, readSignal, reasonOf, untilAborted } from "./abort.js";
 import { type Progress, readProgress } from "./progress.js";
 import { RequestQueue } from "./request-queue.js";
@@ -80,7 +81,7 @@ export interface RequestOptions {
 }
 
 /** How one view is computed, and when it need not be computed. */
-export interface WorkerVisibilityOptions extends VisibilityOptions, RequestOptions {}
+export type WorkerVisibilityOptions = VisibilityOptions & RequestOptions;
 
 const CREATE_OPTIONS = ["transfer", "workers", "shared", "signal", "onProgress"] as const;
 const REQUEST_OPTIONS = ["latest", "signal"] as const;
@@ -90,13 +91,21 @@ type Promised<Method> = Method extends (...args: [...infer Head, (infer Options)
   ? (...args: [...Head, options?: Options & RequestOptions]) => Promise<Answer>
   : never;
 
+type Asked = Pick<PointCloud, Exclude<MethodName | SurveyName, "autoRadius" | "panorama" | "visibleFrom">>;
+
 /**
  * The questions to a cloud, as promises. Requests are answered in order. The workers share the viewpoints of `coverage`,
  * `seenBy` and `placeViewpoints`; if the signal aborts, no further one is asked.
  */
 export type PromisedQuestions = {
-  [Name in Exclude<MethodName, "autoRadius" | "panorama"> | SurveyName]: Promised<PointCloud[Name]>;
+  // By the names of another type, whose comments the methods keep.
+  [Name in keyof Asked]: Promised<Asked[Name]>;
 } & {
+  /** Finds the points that can be seen from a viewpoint; see `PointCloud.visibleFrom`. */
+  visibleFrom<Scores extends boolean = false>(
+    viewpoint: Viewpoint,
+    options?: WorkerVisibilityOptions & { scores?: Scores | undefined },
+  ): Promise<ScoredIf<Scores>>;
   /** What stands in each direction around a viewpoint; see `PointCloud.panorama`. */
   panorama(viewpoint: Viewpoint, options: PanoramaOptions & RequestOptions): Promise<Panorama>;
   /** The radius that a rule chooses for a viewpoint; see `PointCloud.autoRadius`. */

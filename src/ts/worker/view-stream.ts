@@ -2,7 +2,14 @@ import { addTag } from "../base/tag.js";
 import { HprError } from "../base/errors.js";
 import type { Visibility } from "../cloud/visibility.js";
 import { Follower, type Round } from "../follow/follower.js";
-import { type AnswerKind, FOLLOW_OPTIONS, type FollowOptions, followSettings, stagesFor } from "../follow/options.js";
+import {
+  type AnswerKind,
+  FOLLOW_OPTIONS,
+  type FollowedOptions,
+  type FollowOptions,
+  followSettings,
+  stagesFor,
+} from "../follow/options.js";
 import { type AskedStage, FollowedView } from "../follow/view.js";
 import { type CloudSize, givenOptions, listener } from "../query/options.js";
 import type { Place } from "../query/place.js";
@@ -10,16 +17,17 @@ import { readViewpoint } from "../query/positions.js";
 import { VIEW_OPTIONS, type VisibilityOptions } from "../query/view-options.js";
 
 /** The options of a {@link ViewStream}: those of each view, and how answers follow the viewpoint. */
-export interface ViewStreamOptions extends VisibilityOptions, FollowOptions {
-  /** Is called with each answer. */
-  onAnswer?: ((answer: StreamedAnswer) => void) | undefined;
-  /**
-   * Is called when a view is refused. After that, it is called again only if there was an answer in
-   * between. Without it, the error rejects the iterators that wait. If none waits, the error is an
-   * unhandled rejection.
-   */
-  onError?: ((error: Error) => void) | undefined;
-}
+export type ViewStreamOptions = FollowedOptions &
+  FollowOptions & {
+    /** Is called with each answer. */
+    onAnswer?: ((answer: StreamedAnswer) => void) | undefined;
+    /**
+     * Is called when a view is refused. After that, it is called again only if there was an answer in
+     * between. Without it, the error rejects the iterators that wait. If none waits, the error is an
+     * unhandled rejection.
+     */
+    onError?: ((error: Error) => void) | undefined;
+  };
 
 /** An answer, and the view that it belongs to. */
 export interface StreamedAnswer {

@@ -1,7 +1,7 @@
 // Questions to structured clouds, with looks, scores, choices of points, and cameras. Most are good. Some must
 // be refused.
 import fc from "fast-check";
-import type { Camera, PointCloud, VisibilityOptions } from "hidden-point-removal";
+import type { ImageCamera, PointCloud, VisibilityOptions } from "hidden-point-removal";
 import type { WorkerPointCloud } from "hidden-point-removal/worker";
 import { named, typed } from "./argument.js";
 import type { Place, Scene } from "./scenes.js";
@@ -36,8 +36,8 @@ const INVERSIONS: readonly VisibilityOptions[] = [
 const BAD_INVERSIONS: readonly VisibilityOptions[] = [
   { radius: 7 },
   { looks: 4 as 3 },
-  { looks: 3, radius: 100 },
-  { scores: true },
+  { looks: 3, radius: 100 } as object,
+  { scores: true } as object,
   { exponent: NaN },
 ];
 
@@ -77,7 +77,7 @@ const NO_TURNS: readonly (readonly number[])[] = [
   [2, 0, 0, 0, 1, 0, 0, 0, 1],
 ];
 
-function camera({ place }: Scene): fc.Arbitrary<Camera> {
+function camera({ place }: Scene): fc.Arbitrary<ImageCamera> {
   const matrix = fc.tuple(mostly(TURNS, NO_TURNS), place).map(([turn, at]) => {
     const [x, y, z] = [turn.slice(0, 3), turn.slice(3, 6), turn.slice(6, 9)];
     return [...x, 0, ...y, 0, ...z, 0, ...at, 1];
@@ -108,7 +108,7 @@ function camera({ place }: Scene): fc.Arbitrary<Camera> {
           [NaN, 0, 0, 0, 0],
         ],
       ),
-      model: mostly<Camera["model"]>(["OPENCV", undefined], ["FOV", "THIN_PRISM_FISHEYE", "FISHEYE" as "OPENCV"]),
+      model: mostly<ImageCamera["model"]>(["OPENCV", undefined], ["FOV", "THIN_PRISM_FISHEYE", "FISHEYE" as "OPENCV"]),
       near: mostly([0, 0.5, 1], [3, 50, -1, NaN]),
       far: mostly([3, 20, Infinity], [0, NaN]),
     },

@@ -54,7 +54,7 @@ export async function everything(): Promise<HprErrorCode | undefined> {
     console.log(indices, radius, exponent, evaluations, visible.mask(), visible.inversion);
     console.log(hiddenPointRemoval([1, 2, 3], [0, 0, 5], { radius: 10, ...reading }).count);
 
-    cloud.visibleFrom([0, 0, 5], { radius: perhaps, exponent: perhaps, inversion: undefined });
+    cloud.visibleFrom([0, 0, 5], { radius: perhaps, exponent: undefined, inversion: undefined });
     console.log(new PointCloud([], { dimension: perhaps, stride: perhaps, nonFinite: undefined }).skipped);
     cloud.append(new Float64Array(3));
     cloud.remove(new Uint32Array([0]));
@@ -69,7 +69,7 @@ export async function everything(): Promise<HprErrorCode | undefined> {
     const rules: RadiusRule[] = ["auto", "opposite"];
     const ring: number[][] = ringOfViewpoints([0, 0, 5], new Float32Array(3), { count: 5, fraction: perhaps });
     const seen = cloud.visibleFromAtLeast(2, [...ring, new Float64Array(3)], { inversion: inversions[1] });
-    const inversion: ResolvedInversion = cloud.visibleFromAny(ring, { radius: rules[1], exponent: perhaps }).inversion;
+    const inversion: ResolvedInversion = cloud.visibleFromAny(ring, { radius: rules[1] }).inversion;
     mergeVisible(parts, [0, 0, 5], { radius: seen.radius, inversion });
     const meshing: ReconstructionOptions = { maxEdge: Infinity };
     const mesh: Reconstruction = cloud.reconstruct([0, 0, 5], meshing);

@@ -2,11 +2,11 @@ import { numberIn } from "../../formats/numbers.js";
 import { FormatProblem, lineProblem } from "../../formats/problem.js";
 import { lines, type Source } from "../../formats/source.js";
 import { looksBinary, trimmed } from "../../formats/text.js";
-import { type Camera, CAMERA_MODELS, type CameraModel, type Intrinsics } from "../../query/camera.js";
+import { type ImageCamera, CAMERA_MODELS, type CameraModel, type Intrinsics } from "../../query/camera.js";
 
 /** A camera, and the image that it has taken. */
 export interface CameraOfImage {
-  camera: Camera;
+  camera: ImageCamera;
   /** The name of the image as the file gives it. */
   image: string;
 }

@@ -1,7 +1,7 @@
 import { describe, HprError } from "../../base/errors.js";
 import { FormatProblem } from "../../formats/problem.js";
 import { type Source, wholeFile } from "../../formats/source.js";
-import { type Camera, isCamera, readCamera } from "../../query/camera.js";
+import { type ImageCamera, isCamera, readCamera } from "../../query/camera.js";
 import { type CameraOfImage, checked, type ImageSize } from "./camera-file.js";
 
 type Fields = Record<string, unknown>;
@@ -35,7 +35,7 @@ function ownCamera(given: unknown, i: number): CameraOfImage {
   } catch (cause) {
     throw cause instanceof HprError ? new FormatProblem(cause.message, { cause }) : cause;
   }
-  return { camera: camera as unknown as Camera, image };
+  return { camera: camera as unknown as ImageCamera, image };
 }
 
 function cameraOf(file: Fields, frame: unknown, where: string, size: ImageSize | undefined): CameraOfImage {
