@@ -14,6 +14,11 @@ const BITS: u32 = 8;
 const BUCKETS: usize = 1 << BITS;
 /// Fewer items than this are sorted by insertion.
 const FEW: usize = 32;
+/// The most bits of a digit where there is room, and how many different ones there are.
+const WIDEST: u32 = 11;
+/// The most digits.
+const DIGITS: u32 = 3;
+const WIDE: usize = 1 << WIDEST;
 
 /// A number, and the index that is sorted by it. One type for all uses, so that the sort
 /// is compiled once.
@@ -34,7 +39,7 @@ pub(crate) fn percentile(numbers: &[f64], percent: usize) -> Result<Option<f64>,
 #[inline(never)]
 pub(crate) fn sort_keyed(items: &mut [Keyed]) {
     if items.len() < FEW {
-        return sort_few(items);
+        return sort_few(items, |item| item.0);
     }
     beat::steps(items.len() / 64);
     // The highest bits in which the keys differ make the digit.
@@ -82,16 +87,64 @@ pub(crate) fn sort_keyed(items: &mut [Keyed]) {
     }
 }
 
-#[inline(never)]
-fn sort_few(items: &mut [Keyed]) {
+fn sort_few<T: Copy>(items: &mut [T], number: impl Fn(&T) -> u64) {
     for sorted in 1..items.len() {
         let item = items[sorted];
         let mut place = sorted;
-        while place > 0 && items[place - 1].0 > item.0 {
+        while place > 0 && number(&items[place - 1]) > number(&item) {
             items[place] = items[place - 1];
             place -= 1;
         }
         items[place] = item;
+    }
+}
+
+/// Sorts by the bits from `low` up: first by the highest ones that differ, one digit after another from the
+/// lowest on, then runs of items with equal digits in the same way. The order of items with equal bits is
+/// unspecified. `room` holds at least as many items.
+pub(crate) fn sort_packed(items: &mut [u64], low: u32, room: &mut [u64]) {
+    if items.len() < FEW {
+        return sort_few(items, |&item| item);
+    }
+    beat::steps(items.len() / 16);
+    let one = items[0];
+    let different = items.iter().fold(0, |bits, item| bits | item ^ one) >> low;
+    let bits = u64::BITS - different.leading_zeros();
+    let width = items.len().ilog2().min(WIDEST).min(bits.div_ceil(DIGITS));
+    let digits = bits.div_ceil(width.max(1)).min(DIGITS);
+    let rest = low + bits.saturating_sub(digits * width);
+    let room = &mut room[..items.len()];
+    for place in 0..digits {
+        let (from, to) = if place % 2 == 0 {
+            (&mut *items, &mut *room)
+        } else {
+            (&mut *room, &mut *items)
+        };
+        let shift = rest + place * width;
+        let digit = |item: u64| (item >> shift) as usize & ((1 << width) - 1) & (WIDE - 1);
+        let mut next = [0u32; WIDE];
+        for &item in &*from {
+            next[digit(item)] += 1;
+        }
+        let mut end = 0;
+        for start in &mut next[..1 << width] {
+            (*start, end) = (end, end + *start);
+        }
+        for &item in &*from {
+            let place = &mut next[digit(item)];
+            to[*place as usize] = item;
+            *place += 1;
+        }
+    }
+    if digits % 2 == 1 {
+        items.copy_from_slice(room);
+    }
+    if rest > low {
+        for run in items.chunk_by_mut(|a, b| a >> rest == b >> rest) {
+            if run.len() > 1 {
+                sort_packed(run, low, room);
+            }
+        }
     }
 }
 
@@ -177,6 +230,31 @@ mod tests {
                     "{mask:x} {count}"
                 );
                 sorted.sort_unstable_by_key(|&(_, index)| index);
+                assert_eq!(sorted, given, "{mask:x} {count}");
+            }
+        }
+    }
+
+    #[test]
+    fn packed_numbers_are_sorted_by_their_high_bits() {
+        for (mask, low) in [
+            (u64::MAX, 0),
+            (u64::MAX, 20),
+            (0xff, 3),
+            (0, 0),
+            (1 << 63 | 0xff, 8),
+        ] {
+            for count in [0, 1, 2, 31, 32, 33, 90, 3000, 20_000] {
+                let given: Vec<u64> = numbers(count, mask).iter().map(|item| item.0).collect();
+                let mut sorted = given.clone();
+                sort_packed(&mut sorted, low, &mut given.clone());
+                assert!(
+                    sorted.is_sorted_by_key(|item| item >> low),
+                    "{mask:x} {count}"
+                );
+                sorted.sort_unstable();
+                let mut given = given;
+                given.sort_unstable();
                 assert_eq!(sorted, given, "{mask:x} {count}");
             }
         }

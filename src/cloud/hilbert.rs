@@ -52,15 +52,50 @@ const TABLE: [u8; 256] = {
 /// The first digits of the key of a cell, one for each level. The numbers of the cell are below
 /// 2^[`BITS`].
 pub(super) fn hilbert_key(cell: [u32; 3], levels: u32) -> u64 {
-    let octants = interleave(cell);
+    // The first octant is in the highest bits.
+    let mut octants = interleave(cell) << 1;
     let mut turned = 0;
     let mut key = 0;
-    for digit in (BITS - levels..BITS).rev() {
-        let octant = (octants >> (3 * digit)) as u8 & 7;
-        turned = TABLE[(turned & !7 | octant) as usize];
+    for _ in 0..levels {
+        turned = TABLE[(turned & !7 | (octants >> 61) as u8) as usize];
+        octants <<= 3;
         key = key << 3 | u64::from(turned & 7);
     }
     key
+}
+
+/// Finds keys two levels at a time. For each orientation and each octant of an octant: the two digits in
+/// the lowest six bits, and the orientation in those above.
+pub(crate) struct Pairs([u16; 64 * 32]);
+
+impl Pairs {
+    pub(super) fn new() -> Self {
+        let mut pairs = [0; 64 * 32];
+        for (place, pair) in pairs.iter_mut().enumerate().take(64 * TURNS.len()) {
+            let outer = TABLE[place >> 3];
+            let inner = TABLE[(outer & !7 | place as u8 & 7) as usize];
+            *pair = u16::from(inner & !7) << 3 | u16::from((outer & 7) << 3 | inner & 7);
+        }
+        Self(pairs)
+    }
+
+    /// The same as [`hilbert_key`].
+    #[inline]
+    pub(super) fn key(&self, cell: [u32; 3], levels: u32) -> u64 {
+        let mut octants = interleave(cell) << 1;
+        let (mut turned, mut key) = (0, 0);
+        if levels % 2 == 1 {
+            let first = u16::from(TABLE[(octants >> 61) as usize]);
+            octants <<= 3;
+            (turned, key) = (first << 3, u64::from(first & 7));
+        }
+        for _ in 0..levels / 2 {
+            turned = self.0[(turned & !63 | (octants >> 58) as u16) as usize % (64 * 32)];
+            octants <<= 6;
+            key = key << 6 | u64::from(turned & 63);
+        }
+        key
+    }
 }
 
 #[inline]
@@ -107,6 +142,7 @@ mod tests {
 
     #[test]
     fn the_table_gives_the_keys_of_the_transform() {
+        let pairs = Pairs::new();
         let mut random = Random::new(3);
         for _ in 0..10_000 {
             let cell = [0; 3].map(|_: u32| random.below(1 << BITS) as u32);
@@ -114,6 +150,7 @@ mod tests {
             for levels in [0, 1, 12, BITS] {
                 let first = key >> (3 * (BITS - levels));
                 assert_eq!(hilbert_key(cell, levels), first, "{cell:?} {levels}");
+                assert_eq!(pairs.key(cell, levels), first, "{cell:?} {levels}");
             }
         }
     }

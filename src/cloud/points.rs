@@ -3,10 +3,10 @@
 use alloc::vec::Vec;
 use core::ops::Range;
 
-use crate::base::MAX_POINTS;
 use crate::base::allocation::{OutOfMemory, with_capacity};
 use crate::base::error::Error;
 use crate::base::real::one_by_one;
+use crate::base::{FULL, MAX_POINTS};
 
 /// A point as three coordinates, `[f32; 3]` or `[f64; 3]`. Single precision is stored as
 /// given, and widened when it is used.
@@ -77,6 +77,34 @@ impl Given<'_> {
     pub(crate) fn iter(self) -> impl ExactSizeIterator<Item = [f64; 3]> {
         (0..self.len()).map(move |index| self.get(index))
     }
+
+    /// Calls `visit` with the index and the place of each finite one.
+    #[inline(never)]
+    pub(crate) fn each_finite(self, visit: &mut dyn FnMut(u32, [f64; 3])) {
+        for (index, p) in (0..).zip(self.iter()) {
+            if is_finite(p) {
+                visit(index, p);
+            }
+        }
+    }
+
+    /// The points with these indices, in their order. -0 becomes +0, so that equal points have
+    /// equal bits.
+    pub(crate) fn gathered(self, indices: &[u32]) -> Result<Points, OutOfMemory> {
+        let mut gathered = Points::with_capacity(indices.len(), self)?;
+        let each = indices.iter().map(|&index| index as usize);
+        match (&mut gathered, self) {
+            (Points::Single(own), Self::Single(points)) if FULL => {
+                own.extend(each.map(|index| points[index].map(|x| x + 0.0)));
+            }
+            (Points::Double(own), Self::Double(points)) if FULL => {
+                own.extend(each.map(|index| points[index].map(|x| x + 0.0)));
+            }
+            // Slower, and less.
+            _ => each.for_each(|index| gathered.push(self.get(index).map(|x| x + 0.0))),
+        }
+        Ok(gathered)
+    }
 }
 
 /// The cloud's own points, in the precision in which they were given.
@@ -142,11 +170,26 @@ impl Points {
 
     /// The points with these indices, in their order.
     pub(crate) fn gathered(&self, indices: &[u32]) -> Result<Self, OutOfMemory> {
-        let mut gathered = Self::with_capacity(indices.len(), self.as_given())?;
-        for &index in indices {
-            gathered.push(self.get(index as usize));
+        self.as_given().gathered(indices)
+    }
+
+    /// Leaves one of equal neighbors. Returns where each point began, and their number; nothing if
+    /// all stay.
+    pub(crate) fn dedup(&mut self) -> Result<Vec<u32>, OutOfMemory> {
+        let count = self.len();
+        let begins = |&k: &usize| k == 0 || self.get(k) != self.get(k - 1);
+        let different = (0..count).filter(begins).count();
+        if different == count {
+            return Ok(Vec::new());
         }
-        Ok(gathered)
+        let mut starts = with_capacity(different + 1)?;
+        starts.extend((0..count).filter(begins).map(|k| k as u32));
+        starts.push(count as u32);
+        match self {
+            Self::Single(points) => points.dedup(),
+            Self::Double(points) => points.dedup(),
+        }
+        Ok(starts)
     }
 
     /// The present points and the `new` ones, of which number k goes to `places[k]`.

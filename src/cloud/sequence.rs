@@ -7,11 +7,17 @@
 
 use alloc::vec::Vec;
 
-use crate::base::allocation::{OutOfMemory, push, reserve, with_capacity};
-use crate::base::sort::{ordered, sort_by_numbers};
-use crate::cloud::hilbert::BITS;
-use crate::cloud::points::{Given, Points, Splice, is_finite};
+use crate::base::FULL;
+use crate::base::allocation::{OutOfMemory, copied, filled, push, reserve, with_capacity};
+use crate::base::sort::{Keyed, ordered, sort_by_numbers, sort_packed};
+use crate::cloud::hilbert::Pairs;
+use crate::cloud::points::{Given, Points, Splice};
 use crate::cloud::spatial::{HilbertCurve, Place};
+
+/// So many points are sorted at once, at most.
+const AT_ONCE: usize = 1 << 20;
+/// The levels of the curve along which more points are divided.
+const COARSE: u32 = 4;
 
 #[derive(Clone)]
 pub(crate) struct Sequence {
@@ -30,20 +36,12 @@ impl Sequence {
         finite: usize,
         curve: &HilbertCurve,
     ) -> Result<Self, OutOfMemory> {
-        let keyed = sort_along_curve(positions, finite, curve)?;
-        let mut points = Points::with_capacity(keyed.len(), positions)?;
-        let mut indices = Groups::with_capacity(keyed.len())?;
-        let mut previous = None;
-        for &(_, index) in &keyed {
-            let point = without_negative_zero(positions.get(index as usize));
-            let is_new = previous != Some(point);
-            if is_new {
-                previous = Some(point);
-                points.push(point);
-            }
-            indices.push(first_index + index, is_new)?;
+        let (mut points, mut order) = sort_along_curve(positions, finite, curve, AT_ONCE)?;
+        let starts = points.dedup()?;
+        for index in &mut order {
+            *index += first_index;
         }
-        indices.close()?;
+        let indices = Groups { order, starts };
         Ok(Self { points, indices })
     }
 
@@ -268,33 +266,170 @@ impl Groups {
     }
 }
 
-/// The finite positions in order: along the curve, then along the curve inside a cell, then
-/// by coordinates, then by index. Most positions that share a cell are equal. Few positions of a
-/// surface share a cell of a coarser curve, so that most need no more than its shorter key.
+/// The finite positions in order, and their indices: along the curve, then along the curve inside a
+/// cell, then by coordinates, then by index. At most `at_once` are sorted without a division.
 fn sort_along_curve(
     positions: Given,
     finite: usize,
     curve: &HilbertCurve,
-) -> Result<Vec<(u64, u32)>, OutOfMemory> {
-    let mut keyed: Vec<(u64, u32)> = with_capacity(finite)?;
-    // With so many levels, a surface of n points crosses some 4·n cells.
-    let levels = ((usize::BITS - finite.leading_zeros()).div_ceil(2) + 3).min(BITS);
-    for (index, position) in positions.iter().enumerate() {
-        if is_finite(position) {
-            keyed.push((curve.coarse_key(position, levels), index as u32));
+    at_once: usize,
+) -> Result<(Points, Vec<u32>), OutOfMemory> {
+    let sorter = Sorter::new(curve, finite);
+    if !FULL || finite <= at_once {
+        let order = sorter.order(positions, finite)?;
+        return Ok((positions.gathered(&order)?, order));
+    }
+    // A processor's cache has no room for so many, so they are divided into the cells of a coarse curve.
+    let cell = |p| curve.coarse_key(p, COARSE, &sorter.pairs) as usize;
+    let mut starts = filled((1 << (3 * COARSE)) + 1, 0u32)?;
+    positions.each_finite(&mut |_, p| starts[cell(p) + 1] += 1);
+    for cell in 1..starts.len() {
+        starts[cell] += starts[cell - 1];
+    }
+    let mut next = copied(&starts)?;
+    let mut order = filled(finite, 0u32)?;
+    positions.each_finite(&mut |index, p| {
+        let place = &mut next[cell(p)];
+        order[*place as usize] = index;
+        *place += 1;
+    });
+    let mut points = Points::with_capacity(finite, positions)?;
+    for ends in starts.windows(2) {
+        let order = &mut order[ends[0] as usize..ends[1] as usize];
+        let part = positions.gathered(order)?;
+        let mut places = sorter.order(part.as_given(), order.len())?;
+        points.extend(part.gathered(&places)?.as_given(), 0..order.len());
+        for place in &mut places {
+            *place = order[*place as usize];
+        }
+        order.copy_from_slice(&places);
+    }
+    Ok((points, order))
+}
+
+/// Sorts positions along a curve.
+struct Sorter<'a> {
+    curve: &'a HilbertCurve,
+    pairs: Pairs,
+    /// The levels of the curve by which the positions are sorted first.
+    levels: u32,
+}
+
+impl<'a> Sorter<'a> {
+    /// For a cloud of `count` positions.
+    fn new(curve: &'a HilbertCurve, count: usize) -> Self {
+        Self {
+            curve,
+            pairs: Pairs::new(),
+            // With so many, few positions of a surface share a cell.
+            levels: (usize::BITS - count.leading_zeros()).div_ceil(2) + 6,
         }
     }
-    let point = |index: u32| without_negative_zero(positions.get(index as usize));
-    sort_by_numbers(&mut keyed, 7, &|number, index| match number {
-        1 => curve.key(point(index)),
-        2 => curve.key_in_cell(point(index)),
-        axis @ 3..=5 => ordered(point(index)[axis - 3]),
-        _ => u64::from(index),
-    });
-    Ok(keyed)
+
+    /// The order of the `finite` ones among the positions.
+    fn order(&self, positions: Given, finite: usize) -> Result<Vec<u32>, OutOfMemory> {
+        let point = |index: u32| without_negative_zero(positions.get(index as usize));
+        let sort_by_all = |keyed: &mut [Keyed]| {
+            sort_by_numbers(keyed, 6, &|number, index| match number {
+                1 => self.curve.key_in_cell(point(index)),
+                axis @ 2..=4 => ordered(point(index)[axis - 2]),
+                _ => u64::from(index),
+            });
+        };
+        // What stays is reserved first, so that what goes makes room for the points.
+        let mut order = with_capacity(finite)?;
+        let mut keyed: Vec<Keyed> = Vec::new();
+        if !FULL {
+            // Half as fast, and 2 kB less.
+            reserve(&mut keyed, finite)?;
+            positions.each_finite(&mut |index, p| keyed.push((self.curve.key(p), index)));
+            sort_by_all(&mut keyed);
+            order.extend(keyed.iter().map(|&(_, index)| index));
+            return Ok(order);
+        }
+        // The first digits of a key share one number with the index, so that little memory is moved.
+        let low = usize::BITS - positions.len().leading_zeros();
+        let levels = self.levels.min((u64::BITS - low) / 3);
+        // One piece of memory for the numbers and for the room to sort them: later it serves the points.
+        let mut packed: Vec<u64> = with_capacity(2 * finite)?;
+        positions.each_finite(&mut |index, p| {
+            let key = self.curve.coarse_key(p, levels, &self.pairs);
+            packed.push(key << low | u64::from(index));
+        });
+        packed.resize(2 * finite, 0);
+        let (packed, room) = packed.split_at_mut(finite);
+        sort_packed(packed, low, room);
+        let index = |packed: u64| (packed & ((1 << low) - 1)) as u32;
+        for cell in packed.chunk_by(|a, b| a >> low == b >> low) {
+            if let &[one] = cell {
+                order.push(index(one));
+                continue;
+            }
+            keyed.clear();
+            reserve(&mut keyed, cell.len())?;
+            let indices = cell.iter().map(|&packed| index(packed));
+            keyed.extend(indices.map(|index| (self.curve.key(point(index)), index)));
+            sort_by_all(&mut keyed);
+            order.extend(keyed.iter().map(|&(_, index)| index));
+        }
+        Ok(order)
+    }
 }
 
 /// -0 becomes +0, so that equal points have equal bits.
 pub(crate) fn without_negative_zero(point: [f64; 3]) -> [f64; 3] {
     point.map(|x| x + 0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::base::random::Random;
+    use crate::cloud::points::is_finite;
+    use crate::cloud::spatial::Bounds;
+
+    /// The order by what it is defined by.
+    fn defined_order(positions: &[[f64; 3]], curve: &HilbertCurve) -> Vec<u32> {
+        let mut order: Vec<u32> = (0..positions.len() as u32).collect();
+        order.retain(|&index| is_finite(positions[index as usize]));
+        let place = |&index: &u32| curve.place(without_negative_zero(positions[index as usize]));
+        order.sort_by(|a, b| place(a).partial_cmp(&place(b)).unwrap());
+        order
+    }
+
+    #[test]
+    fn clouds_of_every_density_are_sorted_whole_and_divided() {
+        let mut random = Random::new(5);
+        let surface = random.bumpy(6000);
+        // All but one point in a few cells, or in one; equal ones; -0.
+        let dense = |scale: f64| {
+            let near = surface.iter().map(move |p| p.map(|x| x * scale));
+            near.chain([[1e6; 3]]).collect::<Vec<_>>()
+        };
+        let coarse = |x: f64| (x * 4.0).trunc();
+        let grid = surface.iter().map(|p| p.map(coarse)).collect();
+        let broken = (0..).zip(&surface);
+        let broken = broken.map(|(k, p)| if k % 3 == 0 { [f64::NAN; 3] } else { *p });
+        for positions in [
+            surface.clone(),
+            dense(1.0),
+            dense(1e-9),
+            grid,
+            broken.collect(),
+        ] {
+            let mut bounds = Bounds::EMPTY;
+            let finite = positions.iter().filter(|&&p| is_finite(p));
+            finite.clone().for_each(|&p| bounds.include(p));
+            let curve = HilbertCurve::new(&bounds);
+            let expected = defined_order(&positions, &curve);
+            for at_once in [0, AT_ONCE] {
+                let given = Given::Double(&positions);
+                let sorted = sort_along_curve(given, finite.clone().count(), &curve, at_once);
+                let (points, order) = sorted.unwrap();
+                assert_eq!(order, expected);
+                let gathered = order.iter().map(|&index| positions[index as usize]);
+                assert!(points.iter().eq(gathered));
+            }
+        }
+    }
 }

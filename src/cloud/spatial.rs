@@ -6,7 +6,7 @@
 //! the cloud. So everything that is computed in this order is reproducible to the bit.
 
 use crate::base::real::{floor, positive_part};
-use crate::cloud::hilbert::{BITS, hilbert_key};
+use crate::cloud::hilbert::{BITS, Pairs, hilbert_key};
 
 /// Cells along an axis.
 const CELLS: f64 = (1u32 << BITS) as f64;
@@ -164,13 +164,13 @@ impl HilbertCurve {
     /// The key of `p` among all points; equal points have equal keys.
     #[inline(never)]
     pub(crate) fn key(&self, p: [f64; 3]) -> u64 {
-        self.coarse_key(p, BITS)
+        hilbert_key(self.cells(p).map(cell), BITS)
     }
 
     /// The key of the cell of `p` in the coarser curve with so many levels.
     #[inline(never)]
-    pub(crate) fn coarse_key(&self, p: [f64; 3], levels: u32) -> u64 {
-        hilbert_key(self.cells(p).map(cell), levels)
+    pub(crate) fn coarse_key(&self, p: [f64; 3], levels: u32, pairs: &Pairs) -> u64 {
+        pairs.key(self.cells(p).map(cell), levels)
     }
 
     /// The key of `p` among the points of one cell, along a curve inside the cell. A single far

@@ -5,8 +5,9 @@
 
 use alloc::vec::Vec;
 
-use crate::base::allocation::{OutOfMemory, filled, push, with_capacity};
-use crate::base::real::{power_of_two_below, square_root};
+use crate::base::FULL;
+use crate::base::allocation::{OutOfMemory, filled, with_capacity};
+use crate::base::real::{larger, power_of_two_below, smaller, square_root};
 use crate::base::sort::{Keyed, sort_by_numbers, sort_keyed};
 use crate::cloud::neighbors::{Nearest, Neighbor, Neighbors};
 use crate::cloud::points::Points;
@@ -139,8 +140,18 @@ pub(crate) fn sample_of(points: &Points, bounds: &Bounds) -> Result<Sampled, Out
         let v = [0, 1, 2].map(|axis| (p[axis] - center[axis]) * unit);
         v[0] * v[0] + v[1] * v[1] + v[2] * v[2]
     };
-    // Only the shells that hold a wanted point are sorted.
-    let shell = |p: [f64; 3]| ((squared(p) * SHELLS as f64) as usize).min(SHELLS - 1);
+    // Only the shells that hold a wanted point are sorted. They lie between the nearest point and the farthest one, so
+    // that they hold few points each.
+    let (near, far) = if FULL {
+        let distances = points.iter().map(squared);
+        distances.fold((f64::MAX, 0.0f64), |(near, far), d| {
+            (smaller(near, d), larger(far, d))
+        })
+    } else {
+        (0.0, 1.0)
+    };
+    let scale = SHELLS as f64 / (far - near);
+    let shell = |p: [f64; 3]| (((squared(p) - near) * scale) as usize).min(SHELLS - 1);
     let mut inside = filled(SHELLS + 1, 0u32)?;
     for p in points.iter() {
         inside[shell(p) + 1] += 1;
@@ -150,13 +161,18 @@ pub(crate) fn sample_of(points: &Points, bounds: &Bounds) -> Result<Sampled, Out
     }
     let wanted = |number: usize| ((2 * number as u64 + 1) * n as u64 / (2 * count as u64)) as u32;
     let mut is_wanted = filled(SHELLS, false)?;
+    let mut held = 0;
     for number in 0..count {
-        is_wanted[inside.partition_point(|&before| before <= wanted(number)) - 1] = true;
+        let shell = inside.partition_point(|&before| before <= wanted(number)) - 1;
+        if !is_wanted[shell] {
+            is_wanted[shell] = true;
+            held += inside[shell + 1] - inside[shell];
+        }
     }
-    let mut members: Vec<Keyed> = Vec::new();
+    let mut members: Vec<Keyed> = with_capacity(held as usize)?;
     for (place, p) in points.iter().enumerate() {
         if is_wanted[shell(p)] {
-            push(&mut members, (squared(p).to_bits(), place as u32))?;
+            members.push((squared(p).to_bits(), place as u32));
         }
     }
     sort_by_numbers(&mut members, 2, &|_, place| u64::from(place));
