@@ -37,12 +37,37 @@ def is_number(value):
     return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
 
 
+ROUNDED = 1e-3
+"""How far a matrix of a file may be from a rotation: single precision, written as text, is up to 1.5e-4 away."""
+
+
 def checked(camera, where):
+    for name in POSES.values():
+        if name in camera:
+            camera = {**camera, name: with_rotation(camera[name])}
     try:
         PROBE.visible_from_camera(camera)
     except HprError as problem:
         raise Problem(f"{where}: {problem}") from problem
     return camera
+
+
+def with_rotation(pose):
+    """The pose with the nearest rotation, where its numbers were rounded to fewer digits than cameras take."""
+    try:
+        rows = np.array(pose, dtype=float)
+    except (TypeError, ValueError):
+        return pose
+    if rows.shape == (16,):
+        rows = rows.reshape(4, 4).T
+    if rows.shape not in ((4, 4), (3, 4)):
+        return pose
+    off = np.abs(rows[:3, :3] @ rows[:3, :3].T - np.eye(3)).max()
+    if not 2e-6 < off <= ROUNDED:
+        return pose
+    left, _, right = np.linalg.svd(rows[:3, :3])
+    rows[:3, :3] = left @ right
+    return rows
 
 
 def looks_binary(data):

@@ -38,6 +38,7 @@ CAMERAS_BIN = struct.pack("<Q", len(MODELS)) + b"".join(
 IMAGES_BIN = struct.pack("<Q", len(MODELS)) + b"".join(
     struct.pack("<I7dI", number, *pose, number + 1) + name.encode() + b"\0" + struct.pack("<Q", number % 3) + bytes(24 * (number % 3))
     for number, (pose, name) in enumerate(zip(POSES, NAMES)))
+ROUNDED = {"file_path": "b.png", "transform_matrix": [[0.8, -0.6, 0, 2], [0.6001, 0.8, 0, 3], [0, 0, 1, 4], [0, 0, 0, 1]]}
 FRAME = {"file_path": "images/a.png", "transform_matrix": [[0, 0, 1, 2], [1, 0, 0, 3], [0, 1, 0, 4], [0, 0, 0, 1]]}
 NERF = {"w": 640, "h": 480, "fl_x": 500, "fl_y": 510.5, "k1": 0.1, "p2": 0.02, "k3": 0.3,
         "frames": [FRAME, {**FRAME, "fl_x": 400, "w": 320, "k1": 0.5}]}
@@ -71,6 +72,7 @@ GOOD = {
     "colmap text": {"cameras.txt": CAMERAS_TXT, "images.txt": IMAGES_TXT},
     "colmap binary": {"cameras.bin": CAMERAS_BIN, "images.bin": IMAGES_BIN, "images.txt": ""},
     "nerfstudio": {"transforms.json": json.dumps(NERF)},
+    "rounded": {"transforms.json": json.dumps({**NERF, "frames": [ROUNDED]})},
     "blender": {"transforms.json": "\ufeff" + json.dumps(BLENDER)},
     "own": {"calib.txt": json.dumps(OWN)},
     "kitti": {"calib.txt": KITTI},

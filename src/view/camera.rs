@@ -205,7 +205,7 @@ impl Camera {
         let largest = f64::MAX;
         let limits = [
             (
-                "pose must be a rotation and a translation, to within 1e-3",
+                "pose must be a rotation and a translation, to within 1e-5",
                 most(deviation(given), last),
                 0.0,
                 RIGID,
@@ -257,9 +257,8 @@ impl Camera {
 /// How much wider the image of a distorted lens may be.
 const DISTORTED: f64 = 1.3;
 
-/// How far a matrix may be from a rigid one. Photos' poses in single precision, written as text, are up to
-/// 1.5e-4 away.
-const RIGID: f64 = 1e-3;
+/// How far a matrix may be from a rigid one: several roundings to single precision.
+const RIGID: f64 = 1e-5;
 
 /// The largest deviation from a rotation; at least 2 for a reflection.
 fn deviation([x, y, z]: [DVec3; 3]) -> f64 {

@@ -202,6 +202,25 @@ describe("nerfstudio", () => {
   const whole = { w: 640, h: 480, fl_x: 500, fl_y: 510, cx: 320.5, cy: 239, frames: [frame] };
   const read = (json: object) => readCameras(new Blob([JSON.stringify(json)]));
 
+  it("a rotation of four digits becomes the nearest one; a matrix that is none stays, and is refused when it is used", async () => {
+    const rounded = transform_matrix.map((row) => row.map((x, i) => (i < 3 ? Number(x.toFixed(4)) : x)));
+    const [{ camera }] = (await read({ ...whole, frames: [{ ...frame, transform_matrix: rounded }] })) as [
+      CameraOfImage,
+    ];
+    const m = Array.from(camera.cameraToWorld!);
+    for (const a of [0, 1, 2]) {
+      for (const b of [0, 1, 2]) {
+        const dot = [0, 1, 2].reduce((sum, i) => sum + m[4 * a + i]! * m[4 * b + i]!, 0);
+        expect(dot).toBeCloseTo(a === b ? 1 : 0, 6);
+      }
+    }
+    m.forEach((x, i) => expect(x).toBeCloseTo(e[i]!, 3));
+    const skewed = transform_matrix.map((row) => row.map((x, i) => (i === 0 ? x * 1.01 : x)));
+    const [kept] = (await read({ ...whole, frames: [{ ...frame, transform_matrix: skewed }] })) as [CameraOfImage];
+    const cloud = new PointCloud([0, 0, 0]);
+    expect(() => cloud.visibleFromCamera(kept.camera)).toThrow(/rotation and a translation, to within 1e-5/);
+  });
+
   it("numbers of the file and of its frames", async () => {
     const [{ camera, image }] = (await read(whole)) as [CameraOfImage];
     expect(image).toBe("images/a.png");

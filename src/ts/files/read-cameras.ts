@@ -47,11 +47,40 @@ export async function readCameras(
 
 /** Finite numbers of a file may make a pose that is not. */
 function checkPoses(cameras: CameraOfImage[]): CameraOfImage[] {
-  for (const [i, { camera, image }] of cameras.entries()) {
-    if (Array.from(camera.worldToCamera ?? camera.cameraToWorld).every(Number.isFinite)) continue;
-    throw new FormatProblem(`the pose of camera ${i + 1}${image === "" ? "" : ` (${image})`} is not finite`);
+  return cameras.map(({ camera, image }, i) => {
+    const name = camera.worldToCamera === undefined ? "cameraToWorld" : "worldToCamera";
+    const pose = Array.from(camera[name]!);
+    if (!pose.every(Number.isFinite)) {
+      throw new FormatProblem(`the pose of camera ${i + 1}${image === "" ? "" : ` (${image})`} is not finite`);
+    }
+    return { camera: { ...camera, [name]: withRotation(pose) } as typeof camera, image };
+  });
+}
+
+/** How far a matrix of a file may be from a rotation: single precision, written as text, is up to 1.5e-4 away. */
+const ROUNDED = 1e-3;
+
+/** The pose with the nearest rotation, where its numbers were rounded to fewer digits than cameras take. */
+function withRotation(pose: number[]): number[] {
+  const most = Math.max(...offOf(pose).flat().map(Math.abs));
+  if (most < 2e-6 || !(most <= ROUNDED)) return pose;
+  // Björck's iteration for the polar decomposition: each step squares the distance.
+  for (let step = 0; step < 3; step++) {
+    const off = offOf(pose);
+    pose = pose.map((x, i) => {
+      const column = off[i >> 2];
+      if (column === undefined || i % 4 === 3) return x;
+      return x + column.reduce((sum, one, other) => sum + (one * pose[4 * other + (i % 4)]!) / 2, 0);
+    });
   }
-  return cameras;
+  return pose;
+}
+
+/** By how much the products of the axes differ from those of a rotation. */
+function offOf(pose: number[]): number[][] {
+  const axes = [0, 4, 8].map((start) => pose.slice(start, start + 3));
+  const dot = (a: number[], b: number[]) => a.reduce((sum, x, i) => sum + x * b[i]!, 0);
+  return axes.map((a) => axes.map((b) => (a === b ? 1 : 0) - dot(a, b)));
 }
 
 async function reading<T>({ name }: NamedSource, read: () => Promise<T>): Promise<T> {

@@ -57,7 +57,7 @@ export interface Intrinsics {
 
 /**
  * Where a camera is and how it is turned, by exactly one of two matrices: 16 numbers, column by column,
- * as three.js keeps them. A rotation and a translation, to within 10⁻³; the nearest rotation is taken.
+ * as three.js keeps them. A rotation and a translation, to within 10⁻⁵; the nearest rotation is taken.
  */
 export type Pose =
   | {
