@@ -381,8 +381,8 @@ export abstract class CameraFilter<Events extends FilterEvents> extends Sender<E
     const [map] = stagesFor(this.settings, cloud.length, this.drawing.isAble);
     if (this.#prepared === cloud || viewpoint === null || map?.kind !== "map") return;
     this.#prepared = cloud;
-    // If it is refused, the first move says why.
-    void cloud.visibilityMap(viewpoint, map.options);
+    // If it is refused, the first move says why; if the filter is disposed of, nobody needs it.
+    Promise.resolve(cloud.visibilityMap(viewpoint, map.options)).catch(() => undefined);
   }
 
   /** Says once that no map can be drawn. */

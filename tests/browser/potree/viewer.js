@@ -85,10 +85,10 @@ class Renderer {
   }
 }
 
-/** 20,000 points of a bumpy ball far from the origin, in five nodes. The fifth comes later. */
+/** 30,000 points of a bumpy ball far from the origin, in five nodes. The fifth comes later. */
 globalThis.makeViewer = (canvas = document.querySelector("canvas").cloneNode()) => {
   const gl = canvas.getContext("webgl", { antialias: false, preserveDrawingBuffer: true });
-  const [PER_NODE, HOME] = [4000, [500_000, 4_000_000, 100]];
+  const [PER_NODE, HOME] = [6000, [500_000, 4_000_000, 100]];
   const material = { vertexShader: VERTEX };
   const nodes = [0, 1, 2, 3, 4].map((k) => {
     const array = new Float32Array(3 * PER_NODE);
