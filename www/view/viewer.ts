@@ -153,9 +153,10 @@ export class Viewer {
   }
 
   #end(shown: Shown): void {
+    // First, while the geometry has the filter's index, whose buffer it frees.
+    shown.points.dispose();
     shown.inquiry.dispose();
     remove(shown);
-    shown.points.dispose();
   }
 
   /** Ends the picture and its worker. The canvas cannot be used again. */
