@@ -1,15 +1,12 @@
-//! The flat that holds all points of a cloud, except for rounding; frames with as many coordinates as points span
-//! dimensions; and the space in which points and viewpoints that differ in at most three coordinates are a cloud.
+//! The flat that holds all points of a cloud, except for rounding; and frames with as many coordinates as points span
+//! dimensions.
 
 use alloc::vec::Vec;
 
 use crate::base::allocation::{OutOfMemory, filled, push, reserve, with_capacity};
-use crate::base::error::Error;
 use crate::base::real::power_of_two_below;
-use crate::cloud::point_cloud::{NonFinite, PointCloud};
-use crate::dimensions::extreme::subtract;
+use crate::dimensions::plane::subtract;
 use crate::dimensions::residues::{Integers, inverse, times_plus};
-use crate::dimensions::rows::Rows;
 
 /// Coordinates are rounded. A distance from a flat counts as 0 up to so many times the rounding of
 /// the coordinates that it is computed from.
@@ -237,53 +234,4 @@ impl Span {
         }
         Ok(span)
     }
-}
-
-/// The cloud and the viewpoints in the subspace.
-type InSpace = (PointCloud, Vec<[f64; 3]>);
-
-/// `None` if the points and the viewpoints differ in more coordinates.
-#[inline(never)]
-pub(super) fn in_space(rows: &Rows, viewpoints: &[&[f64]]) -> Result<Option<InSpace>, Error> {
-    let Some(first) = viewpoints.first() else {
-        return Ok(None);
-    };
-    let differs = |axis: usize| {
-        let x = first[axis];
-        (0..rows.distinct()).any(|point| rows.at(point)[axis] != x)
-            || viewpoints.iter().any(|viewpoint| viewpoint[axis] != x)
-    };
-    let mut kept = filled(rows.dimension, false)?;
-    let mut count = 0;
-    // Where they differ in fewer than three coordinates, any others follow.
-    for own in [true, false] {
-        for (axis, kept) in kept.iter_mut().enumerate() {
-            if differs(axis) == own && (own || count < 3) {
-                *kept = true;
-                count += 1;
-            }
-        }
-    }
-    if count > 3 {
-        return Ok(None);
-    }
-    let mut positions = columns(&rows.coordinates, &kept)?;
-    for (place, present) in positions.chunks_exact_mut(3).zip(&rows.present) {
-        if !present {
-            place.fill(f64::NAN);
-        }
-    }
-    let cloud = PointCloud::with_non_finite(&in_threes(&positions)?, NonFinite::Skip)?;
-    let mut places: Vec<f64> = with_capacity(3 * viewpoints.len())?;
-    for viewpoint in viewpoints {
-        places.extend_from_slice(&columns(viewpoint, &kept)?);
-    }
-    Ok(Some((cloud, in_threes(&places)?)))
-}
-
-#[inline(never)]
-fn in_threes(numbers: &[f64]) -> Result<Vec<[f64; 3]>, OutOfMemory> {
-    let mut places = filled(numbers.len() / 3, [0.0; 3])?;
-    places.as_flattened_mut().copy_from_slice(numbers);
-    Ok(places)
 }

@@ -15,12 +15,10 @@ use crate::base::allocation::push;
 use crate::wasm::failure::disposed;
 use crate::wasm::objects::numbered;
 use crate::wasm::options::ViewOptions;
-#[cfg(feature = "wasm")]
-use crate::wasm::surveys::Placed;
 use crate::wasm::transfer::copy_in_bytes;
-use crate::{Error, Options, PointCloud};
 #[cfg(feature = "wasm")]
-use crate::{Horizon, PointCloudNd};
+use crate::{Choice, Horizon, PointCloudNd};
+use crate::{Error, Options, PointCloud};
 
 thread_local! {
     static CLOUDS: RefCell<Vec<Option<Cloud>>> = const { RefCell::new(Vec::new()) };
@@ -38,6 +36,17 @@ pub(super) enum Cloud {
     Transfer(Box<Transfer>),
     #[cfg(feature = "wasm")]
     Choice(Box<Placed>),
+}
+
+/// A choice among candidates, and views of them.
+#[cfg(feature = "wasm")]
+pub(super) struct Placed {
+    pub choice: Choice,
+    pub kept: Vec<Option<Vec<u32>>>,
+    pub bytes: usize,
+    /// The last view, if it is not kept.
+    pub last: Option<(usize, Vec<u32>)>,
+    pub is_begun: bool,
 }
 
 /// The hull of a view. A view in slices goes on from it. All clouds share two, the newer first, so that many

@@ -10,7 +10,7 @@ use wasm_bindgen::prelude::*;
 
 use crate::answers::transfer::{Shown, Transfer};
 use crate::base::allocation::with_capacity;
-use crate::wasm::clouds::{Cloud, change_any, created};
+use crate::wasm::clouds::{Cloud, Placed, change_any, created};
 use crate::wasm::objects::{list, object};
 use crate::wasm::transfer::{
     Coordinates, Numbers, copy_in_integers, copy_out, groups, numbers, singles,
@@ -127,16 +127,6 @@ fn with_transfer(
         _ => Ok(()),
     })?;
     Ok(())
-}
-
-/// A choice among candidates, and views of them.
-pub(super) struct Placed {
-    choice: Choice,
-    kept: Vec<Option<Vec<u32>>>,
-    bytes: usize,
-    /// The last view, if it is not kept.
-    last: Option<(usize, Vec<u32>)>,
-    is_begun: bool,
 }
 
 /// Views are kept while they take no more memory than this, in bytes; others are asked again.
