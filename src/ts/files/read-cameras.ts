@@ -53,7 +53,7 @@ function checkPoses(cameras: CameraOfImage[]): CameraOfImage[] {
     if (!pose.every(Number.isFinite)) {
       throw new FormatProblem(`the pose of camera ${i + 1}${image === "" ? "" : ` (${image})`} is not finite`);
     }
-    return { camera: { ...camera, [name]: withRotation(pose) } as typeof camera, image };
+    return { camera: { ...camera, [name]: withRotation(pose) }, image };
   });
 }
 
