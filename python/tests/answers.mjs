@@ -34,7 +34,7 @@ function answer({ file, precision, call, arguments: given }) {
     if (ArrayBuffer.isView(result)) return digest(result);
     if ("recall" in result) return digest(Float64Array.of(result.thickness, ...result.recall));
     if ("offsets" in result) return digest(result.offsets, result.cameras, result.pixels, result.towards);
-    if ("values" in result) return digest(result.values, result.seen);
+    if ("values" in result) return digest(Float32Array.from(result.values), result.seen);
     if ("uniforms" in result) return digest(result.data, Float64Array.from(Object.values(result.uniforms).flat()));
     if ("gains" in result) {
       return digest(Float64Array.of(...result.chosen, ...result.gains), result.seen, result.unseen);

@@ -72,13 +72,13 @@ GOOD = {
     "colmap text": {"cameras.txt": CAMERAS_TXT, "images.txt": IMAGES_TXT},
     "colmap binary": {"cameras.bin": CAMERAS_BIN, "images.bin": IMAGES_BIN, "images.txt": ""},
     "nerfstudio": {"transforms.json": json.dumps(NERF)},
-    "rounded": {"transforms.json": json.dumps({**NERF, "frames": [ROUNDED]})},
     "blender": {"transforms.json": "\ufeff" + json.dumps(BLENDER)},
     "own": {"calib.txt": json.dumps(OWN)},
     "kitti": {"calib.txt": KITTI},
     "odometry": {"calib.txt": KITTI.replace("Tr_velo_to_cam", "Tr").replace("R0", "Q")},
     "opencv": {"camera.yml": YAML},
     "ros": {"camera.yaml": ROS},
+    "rounded": {"transforms.json": json.dumps({**NERF, "frames": [ROUNDED]})},
 }
 
 

@@ -254,8 +254,8 @@ describe("too-large", () => {
     const small = await freshPackage();
     small.initSync(cappedWasm(40));
     const outcomes = new Set<string>();
-    const points = bumpySphere(3, 40_000);
-    for (let count = 1000; count < 40_000; count = Math.ceil(1.1 * count)) {
+    const points = bumpySphere(3, 100_000);
+    for (let count = 1000; count < 100_000; count = Math.ceil(1.1 * count)) {
       let cloud: InstanceType<typeof PointCloud> | undefined;
       try {
         cloud = new small.PointCloud(points.subarray(0, 3 * count));
