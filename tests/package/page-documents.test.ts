@@ -2,6 +2,7 @@
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { expect, test } from "vitest";
+import { docs } from "../../www/build/docs-plugin.js";
 import { ELEMENT_KEYS, KEYS, type Key, shownKeys } from "../../www/controls/keys.js";
 import { ATTRIBUTE_NAMES, rowOf } from "../../www/element/attributes.js";
 import { SAMPLES } from "../../www/samples/samples.js";
@@ -95,4 +96,26 @@ test("no two actions of the page's canvas have the same key", () => {
     .filter(([action]) => !elsewhere.has(action))
     .flatMap(([, { keys, ...key }]) => keys.map((each) => ("shift" in key ? `Shift ${each}` : each)));
   expect(new Set(pressed).size).toBe(pressed.length);
+});
+
+test("the documents are served beside the page, and their links lead to other ones", () => {
+  type Handler = (request: { url: string }, response: object, next: () => void) => void;
+  let handle: Handler | undefined;
+  const { configureServer } = docs() as unknown as { configureServer: (server: object) => void };
+  configureServer({ middlewares: { use: (handler: Handler) => (handle = handler) } });
+  const get = (url: string) => {
+    let body: string | undefined;
+    handle!({ url }, { writeHead: () => ({ end: (given: string) => (body = given) }) }, () => undefined);
+    return body;
+  };
+  const [seen, waiting] = [new Set<string>(), ["index.html"]];
+  for (let name = waiting.pop(); name !== undefined; name = waiting.pop()) {
+    if (seen.has(name)) continue;
+    seen.add(name);
+    const page = get(`/docs/${name}`);
+    expect(page, name).toMatch(/^<!doctype html>/);
+    for (const [, link] of page!.matchAll(/href="(\w+\.html)/g)) waiting.push(link!);
+  }
+  expect(seen.size).toBeGreaterThan(10);
+  expect(get("/docs/none.html")).toBeUndefined();
 });

@@ -1,32 +1,40 @@
 import { readdirSync, readFileSync } from "node:fs";
-import { fileURLToPath } from "node:url";
 import markdownIt from "markdown-it";
 import type { Plugin } from "vite";
 
 const root = new URL("../../", import.meta.url);
 const README = "README.md";
 
-/** Writes the README and the documents as pages beside the built page: docs/index.html, docs/API.html and so on. */
+/** The README and the documents as pages beside the page, built or served: docs/index.html, docs/API.html and so on. */
 export function docs(): Plugin {
   return {
     name: "docs",
-    apply: "build",
+    configureServer(server) {
+      server.middlewares.use((request, response, next) => {
+        const name = new URL(request.url!, "http://localhost").pathname.slice(1);
+        const body = files()[name]?.();
+        if (body === undefined) next();
+        else response.writeHead(200, name.endsWith(".html") ? { "content-type": "text/html" } : {}).end(body);
+      });
+    },
     generateBundle() {
-      const names = readdirSync(new URL("docs/", root));
-      const pages = names.filter((name) => name.endsWith(".md"));
-      for (const name of [README, ...pages]) {
-        const text = readFileSync(new URL(name === README ? name : `docs/${name}`, root), "utf8");
-        this.emitFile({ type: "asset", fileName: `docs/${pageOf(name)}`, source: written(text, pages) });
-      }
-      for (const name of names.filter((other) => /\.(png|webp)$/.test(other))) {
-        this.emitFile({
-          type: "asset",
-          fileName: `docs/${name}`,
-          source: readFileSync(fileURLToPath(new URL(`docs/${name}`, root))),
-        });
+      for (const [fileName, content] of Object.entries(files())) {
+        this.emitFile({ type: "asset", fileName, source: content() });
       }
     },
   };
+}
+
+function files(): Record<string, () => string | Uint8Array> {
+  const names = readdirSync(new URL("docs/", root));
+  const pages = names.filter((name) => name.endsWith(".md"));
+  const texts = [README, ...pages].map((name) => {
+    const place = new URL(name === README ? name : `docs/${name}`, root);
+    return [`docs/${pageOf(name)}`, () => written(readFileSync(place, "utf8"), pages)] as const;
+  });
+  const pictures = names.filter((name) => /\.(png|webp)$/.test(name));
+  const shown = pictures.map((name) => [`docs/${name}`, () => readFileSync(new URL(`docs/${name}`, root))] as const);
+  return Object.fromEntries<() => string | Uint8Array>([...texts, ...shown]);
 }
 
 const pageOf = (name: string) => (name === README ? "index.html" : name.replace(/md$/, "html"));
