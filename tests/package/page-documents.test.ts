@@ -102,7 +102,7 @@ test("the documents are served beside the page, and their links lead to other on
   type Handler = (request: { url: string }, response: object, next: () => void) => void;
   let handle: Handler | undefined;
   const { configureServer } = docs() as unknown as { configureServer: (server: object) => void };
-  configureServer({ middlewares: { use: (handler: Handler) => (handle = handler) } });
+  configureServer({ config: { base: "/" }, middlewares: { use: (handler: Handler) => (handle = handler) } });
   const get = (url: string) => {
     let body: string | undefined;
     handle!({ url }, { writeHead: () => ({ end: (given: string) => (body = given) }) }, () => undefined);

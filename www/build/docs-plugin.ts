@@ -1,31 +1,17 @@
 import { readdirSync, readFileSync } from "node:fs";
 import markdownIt from "markdown-it";
 import type { Plugin } from "vite";
+import { type Files, filesBeside } from "./files-beside.ts";
 
 const root = new URL("../../", import.meta.url);
 const README = "README.md";
 
 /** The README and the documents as pages beside the page, built or served: docs/index.html, docs/API.html and so on. */
 export function docs(): Plugin {
-  return {
-    name: "docs",
-    configureServer(server) {
-      server.middlewares.use((request, response, next) => {
-        const name = new URL(request.url!, "http://localhost").pathname.slice(1);
-        const body = files()[name]?.();
-        if (body === undefined) next();
-        else response.writeHead(200, name.endsWith(".html") ? { "content-type": "text/html" } : {}).end(body);
-      });
-    },
-    generateBundle() {
-      for (const [fileName, content] of Object.entries(files())) {
-        this.emitFile({ type: "asset", fileName, source: content() });
-      }
-    },
-  };
+  return { name: "docs", ...filesBeside(files) };
 }
 
-function files(): Record<string, () => string | Uint8Array> {
+function files(): Files {
   const names = readdirSync(new URL("docs/", root));
   const pages = names.filter((name) => name.endsWith(".md"));
   const texts = [README, ...pages].map((name) => {

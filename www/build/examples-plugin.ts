@@ -2,6 +2,7 @@ import { existsSync, readdirSync, readFileSync } from "node:fs";
 import { join } from "node:path";
 import { createServer, type Plugin } from "vite";
 import { writeCloud } from "hidden-point-removal/files";
+import { type Files, filesBeside } from "./files-beside.ts";
 import { make } from "../samples/living-room.ts";
 
 const EXAMPLES = join(import.meta.dirname, "../../examples");
@@ -25,19 +26,7 @@ export function examples(): Plugin {
   return {
     name: "examples",
     transformIndexHtml: { order: "pre", handler: (html) => html.replace("<!-- gallery -->", ORDER.map(card).join("")) },
-    configureServer(server) {
-      server.middlewares.use((request, response, next) => {
-        const name = new URL(request.url!, "http://localhost").pathname.slice(1);
-        const body = files()[name]?.();
-        if (body === undefined) next();
-        else response.writeHead(200, { "content-type": typeOf(name) }).end(body);
-      });
-    },
-    generateBundle() {
-      for (const [fileName, content] of Object.entries(files())) {
-        this.emitFile({ type: "asset", fileName, source: content() });
-      }
-    },
+    ...filesBeside(files),
   };
 }
 
@@ -58,7 +47,7 @@ export function underExamples(configFile: string): Plugin {
 }
 
 /** What is served beside the pages that Vite bundles. */
-function files(): Record<string, () => string | Uint8Array> {
+function files(): Files {
   const distributed = readdirSync(DIST).filter((name) => /^(?!inline|cli|command|hidden).*\.js$/.test(name));
   const given: [string, string][] = [
     ...[...distributed, "wasm/hpr_bg.wasm"].map((name): [string, string] => [`package/${name}`, join(DIST, name)]),
@@ -70,14 +59,10 @@ function files(): Record<string, () => string | Uint8Array> {
     ...AS_THEY_ARE.map((name) => [`${name}.html`, () => source(name)]),
     ...given.map(([name, path]) => [name, () => readFileSync(path)]),
     ["room.ply", () => (room ??= roomFile())],
-  ]) as Record<string, () => string | Uint8Array>;
+  ]) as Files;
 }
 
 const pictures = () => (existsSync(join(EXAMPLES, PICTURES)) ? readdirSync(join(EXAMPLES, PICTURES)) : []);
-
-const TYPES: Record<string, string> = { js: "text/javascript", html: "text/html", wasm: "application/wasm" };
-const typeOf = (name: string) =>
-  TYPES[name.split(".").at(-1)!] ?? (name.endsWith(".txt") ? "text/plain" : "application/octet-stream");
 
 let room: Uint8Array | undefined;
 
