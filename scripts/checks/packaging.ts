@@ -1,4 +1,5 @@
 import { existsSync, readFileSync } from "node:fs";
+import { dirname, join } from "node:path";
 
 import { BUILD, FAIL, PASS, SETUP, checkCommand, sum, vitest, type Check, type Outcome } from "./check.js";
 import { THIRD_PARTY, notAllowed, notLocked, shipped, thirdPartyText } from "../supply/third-party.js";
@@ -7,9 +8,7 @@ import { setUpBrowser } from "../setup/system.js";
 
 /** All files that a user of the npm package gets. */
 const WANTED =
-  /^(dist\/.+\.(js|js\.map|d\.ts|wasm)|docs\/[A-Z]+\.md|docs\/before-after\.png|examples\/\w+\.\w+|(README|CHANGELOG|THIRD_PARTY)\.md|LICENSE-MIT|LICENSE-APACHE|package\.json)$/;
-/** Documents of README.md about the repository. A user of the package does not need them. */
-const OF_THE_REPOSITORY = /^python\b|^docs\/(PAGE|MEASURED)|^(ARCHITECTURE|CONTRIBUTING|SECURITY)/;
+  /^(dist\/.+\.(js|js\.map|d\.ts|wasm)|docs\/[\w-]+\.(md|png|webp)|examples\/\w+\.\w+|(README|CHANGELOG|SECURITY|THIRD_PARTY)\.md|LICENSE-MIT|LICENSE-APACHE|package\.json)$/;
 const INDISPENSABLE = [
   "dist/index.js",
   "dist/index.d.ts",
@@ -57,17 +56,22 @@ async function npmPackage(): Promise<Outcome> {
   const missing = INDISPENSABLE.filter((file) => !files.includes(file));
   if (unwanted.length > 0) print(`Would be published, but should not: ${unwanted.join(", ")}\n`);
   if (missing.length > 0) print(`Would not be published, but should: ${missing.join(", ")}\n`);
-  const broken = linksIn("README.md").filter((file) => !files.includes(file) && !OF_THE_REPOSITORY.test(file));
-  if (broken.length > 0) print(`README.md links to files that would not be published: ${broken.join(", ")}\n`);
+  const broken = files
+    .filter((file) => file.endsWith(".md"))
+    .flatMap((file) => linksIn(file).map((link) => ({ file, link })))
+    .filter(({ link }) => !files.includes(link));
+  for (const { file, link } of broken) print(`${file} leads to ${link}, which would not be published\n`);
   print(`${files.length} files\n`);
   const found = [unwanted, missing, broken].map(({ length }) => (length === 0 ? PASS : FAIL));
   return sum([...found, await rehearsal()]);
 }
 
-/** The files that a document links to or shows. Its readers look for them in the package, and npm's page in the repository. */
+/** The files that a document links to or shows. Its readers look for them in the package. */
 function linksIn(document: string): string[] {
   const text = readFileSync(inRoot(document), "utf8");
-  return [...text.matchAll(/\]\((?!\w+:|#)([^)#]+)/g)].map(([, file]) => file!);
+  return [...text.matchAll(/(?:\]\(|<img src=")(?!\w+:|#)([^)#"]+)/g)].map(([, file]) =>
+    join(dirname(document), file!),
+  );
 }
 
 /** Rehearses the publication, without sending anything. npm reports everything that it would have to correct. */

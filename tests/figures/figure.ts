@@ -6,6 +6,8 @@ import type { Shot, Size, Studio } from "./studio.js";
 export interface Figure {
   /** The name of its file, without the extension. */
   name: string;
+  /** Where its file goes, instead of tests/figures. */
+  folder?: string;
   title: string;
   /** The caption in Markdown: what to see, the viewpoint, R and the number of points. */
   caption: string;

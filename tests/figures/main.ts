@@ -1,6 +1,6 @@
 // npm run figures: the paper's figures, drawn by the demo page.
 // Names after `--` choose some of them.
-import { existsSync, readFileSync, writeFileSync } from "node:fs";
+import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 
 import { init } from "hidden-point-removal";
@@ -20,7 +20,7 @@ const MAKERS: Record<string, Maker> = {
   halo,
   radius,
 };
-const FOLDER = join(root, "tests", "figures");
+const FOLDER = join("tests", "figures");
 
 const ALL = Object.keys(MAKERS);
 const names = process.argv.length > 2 ? process.argv.slice(2) : ALL;
@@ -51,12 +51,12 @@ async function withStudio(use: (studio: Studio) => Promise<void>): Promise<void>
 }
 
 function keep(figures: Figure[]): void {
-  for (const { name, png } of figures) write(`${name}.png`, png);
+  for (const { name, folder = FOLDER, png } of figures) write(join(folder, `${name}.png`), png);
   const readme = join(FOLDER, "README.md");
-  write("README.md", withFigures(existsSync(readme) ? readFileSync(readme, "utf8") : "", figures));
+  write(readme, withFigures(readFileSync(join(root, readme), "utf8"), figures));
 }
 
-function write(name: string, content: string | Buffer): void {
-  writeFileSync(join(FOLDER, name), content);
-  console.log(join("tests", "figures", name));
+function write(file: string, content: string | Buffer): void {
+  writeFileSync(join(root, file), content);
+  console.log(file);
 }

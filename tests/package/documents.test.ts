@@ -36,10 +36,22 @@ describe.each(["README.md", "docs/API.md", "docs/BUNDLERS.md", "docs/CAMERAS.md"
 
 test.each(DOCUMENTS)("links of %s lead to files", (document) => {
   const text = readFileSync(join(root, document), "utf8");
-  for (const [, target = ""] of text.matchAll(/\]\(([^)#]+)(?:#[^)]*)?\)/g)) {
-    if (!/^https?:/.test(target)) expect(existsSync(join(root, dirname(document), target)), target).toBe(true);
+  for (const [, target = "", heading] of text.matchAll(/\]\((?!https?:)([^)#]*)(?:#([^)]*))?\)/g)) {
+    const file = target === "" ? document : join(dirname(document), target);
+    expect(existsSync(join(root, file)), target).toBe(true);
+    if (heading !== undefined) expect(anchors(file), target).toContain(heading);
   }
 });
+
+/** The names that GitHub gives to the headings of a document. */
+function anchors(document: string): string[] {
+  return [...readFileSync(join(root, document), "utf8").matchAll(/^#+ (.+)$/gm)].map(([, heading = ""]) =>
+    heading
+      .toLowerCase()
+      .replace(/[^\w\- ]/g, "")
+      .replaceAll(" ", "-"),
+  );
+}
 
 test.each([
   ["README.md", 1300],
