@@ -76,6 +76,15 @@ test.each([
   expect(text.trim().split(/\s+/).length).toBeLessThanOrEqual(most);
 });
 
+test("the table of fuzzers has a row for each", () => {
+  const found = (file: string, names: RegExp) =>
+    [...readFileSync(join(root, file), "utf8").matchAll(names)].flatMap(([, name = ""]) => name.toLowerCase());
+  const rows = found("tests/fuzz/README.md", /^\| (`.+?) \|/gm).flatMap((row) => row.match(/\w+/g) ?? []);
+  const checks = found("tests/core/checks/mod.rs", /^ {4}check\("(\w+)"/gm);
+  const functions = found("scripts/fuzz/fuzzers.ts", /name: "fuzz(\w+)"/g);
+  expect(rows.toSorted()).toEqual([...checks, ...functions].toSorted());
+});
+
 describe("commands", () => {
   const commands = DOCUMENTS.flatMap((document) => blocks(document, "sh"))
     .flatMap((block) => block.split("\n"))
