@@ -28,7 +28,7 @@ export type HprErrorCode =
  * | `too-large` | more points than supported, or memory refused; everything else goes on working |
  * | `not-initialised` | a synchronous call before `init()` has resolved |
  * | `load` | the wasm (or the worker) could not be fetched, compiled or started; an octree that cannot be fetched, is broken or has changed |
- * | `disposed` | use after `dispose()`, or of an answer whose `indices` were recycled or transferred away |
+ * | `disposed` | use after `dispose()`, or of an answer whose `indices` were given away |
  * | `internal` | a trap inside the wasm, or a worker that died |
  */
 export class HprError extends Error {
@@ -36,6 +36,7 @@ export class HprError extends Error {
   /** The stable short name of the error. */
   readonly code: HprErrorCode;
 
+  /** An error with one of the codes above, a sentence for people, and what caused it. */
   constructor(code: HprErrorCode, message: string, options?: { cause?: unknown }) {
     super(message, options);
     this.code = code;

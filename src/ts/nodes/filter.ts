@@ -46,6 +46,8 @@ export class HiddenPointNodesFilter extends GatheredFilter<CloudNode> {
   protected override readonly drawing: NodeSet;
 
   /**
+   * Hides the points of all nodes that the camera of `update` does not see.
+   *
    * @param root an object above all nodes. The nodes are one cloud in the space of this object, and
    *   a radius is in the units of this space.
    * @throws HprError `option`.

@@ -59,6 +59,8 @@ export class HiddenPointFilter extends CameraFilter<HiddenPointFilterEvents> {
   #count = 0;
 
   /**
+   * Hides the points that the camera of `update` does not see.
+   *
    * @param points the points. From now on, the filter owns their index and draw range.
    * @throws HprError `option`, `positions-type`, `too-large`. Errors that only the core can find
    *   (`non-finite`, the range of an option) may reject `ready` instead.
