@@ -37,9 +37,8 @@
 //! let view = cloud.visible_from_camera(&camera, &Options::looks(3))?;
 //! assert_eq!(view.pixels.len(), view.visibility.indices().len());
 //!
-//! let threads = cloud.with_threads(2)?;
 //! let ring = [[99.0, 0.0, 40.0], [0.0, 99.0, 40.0]];
-//! let counts = threads.coverage(&ring, &Options::default())?;
+//! let counts = cloud.coverage(&ring, &Options::default().with_threads(2))?;
 //! assert!(counts.iter().all(|&count| count <= 2));
 //! let is_seen = cloud.sees([15.0, 15.0, 40.0], &[[15.0, 15.0, 9.0]], &Options::looks(3))?;
 //! assert_eq!(is_seen, [true]);
@@ -91,8 +90,6 @@ pub use answers::panorama::{Panorama, PanoramaOptions};
 pub use answers::placement::{Choice, Placement, Placing};
 pub use answers::reconstruct::Reconstruction;
 pub use answers::several::ring_of_viewpoints;
-#[cfg(feature = "std")]
-pub use answers::threads::Threads;
 pub use answers::transfer::{
     Image, Merge, Pixels, Sampling, Transfer, TransferOptions, Transferred, Values, Weights,
 };

@@ -3,7 +3,7 @@
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use hidden_point_removal as core;
-use hidden_point_removal::{Camera, CameraView, NonFinite, Options, Seat, Threads};
+use hidden_point_removal::{Camera, CameraView, NonFinite, Options, Seat};
 use numpy::{IntoPyArray, PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyType};
@@ -37,15 +37,12 @@ impl PointCloud {
         &self,
         py: Python<'_>,
         how: How,
-        query: impl Send + FnOnce(Threads<'_>) -> Result<T, core::Error>,
+        query: impl Send + FnOnce(&core::PointCloud) -> Result<T, core::Error>,
     ) -> PyResult<T> {
         let points = self.__len__(py)?.saturating_mul(how.more + 1);
-        self.cloud.ask(py, points, |cloud| {
-            let threads = how.threads.unwrap_or_else(|| default_threads(cloud.len()));
-            match how.mask {
-                Some(mask) => query(cloud.masked(&mask)?.with_threads(threads)?),
-                None => query(cloud.with_threads(threads)?),
-            }
+        self.cloud.ask(py, points, |cloud| match how.mask {
+            Some(mask) => query(&cloud.masked(&mask)?),
+            None => query(cloud),
         })
     }
 
@@ -87,10 +84,10 @@ impl PointCloud {
         places: &[T],
         asked: &Asked,
         on_progress: Option<&Bound<'_, PyAny>>,
-        mut query: impl Send + FnMut(Threads<'_>, &[T]) -> Result<(), core::Error>,
+        mut query: impl Send + FnMut(&core::PointCloud, &[T]) -> Result<(), core::Error>,
     ) -> PyResult<()> {
         check_listener(py, on_progress)?;
-        let size = self.group_size(py, asked)?;
+        let size = asked.options.threads;
         // Without a place, the options are checked all the same.
         let mut groups = places
             .chunks(size)
@@ -114,10 +111,13 @@ impl PointCloud {
         Ok(())
     }
 
-    /// So many places are asked about at once: as many as there are threads.
-    pub fn group_size(&self, py: Python<'_>, asked: &Asked) -> PyResult<usize> {
-        let usual = default_threads(self.__len__(py)?);
-        Ok(asked.how.threads.unwrap_or(usual).max(1))
+    /// Reads the options of a view of this cloud.
+    pub fn read(&self, py: Python<'_>, given: Option<&Bound<'_, PyDict>>) -> PyResult<Asked> {
+        let mut asked = options::read(py, given)?;
+        if asked.options.threads == 0 {
+            asked.options.threads = default_threads(self.__len__(py)?);
+        }
+        Ok(asked)
     }
 
     /// How often points have come or gone.
@@ -148,9 +148,9 @@ impl PointCloud {
         slf: &Bound<'py, Self>,
         places: usize,
         given: Option<&Bound<'_, PyDict>>,
-        query: impl Send + FnOnce(Threads<'_>, &Options) -> Result<core::Visibility, core::Error>,
+        query: impl Send + FnOnce(&core::PointCloud, &Options) -> Result<core::Visibility, core::Error>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let Asked { options, mut how } = options::read(slf.py(), given)?;
+        let Asked { options, mut how } = slf.get().read(slf.py(), given)?;
         how.more = places;
         let seen = slf.get().ask(slf.py(), how, |cloud| query(cloud, &options));
         answer(slf, seen?)
@@ -174,32 +174,32 @@ pub fn check_listener(py: Python<'_>, listener: Option<&Bound<'_, PyAny>>) -> Py
 
 /// What some cameras see.
 pub fn views(
-    cloud: Threads<'_>,
+    cloud: &core::PointCloud,
     cameras: &[Camera],
     options: &Options,
 ) -> Result<Vec<CameraView>, core::Error> {
-    each(cloud, cameras, |cloud, camera| {
+    each(cameras, options, |camera, options| {
         cloud.visible_from_camera(camera, options)
     })
 }
 
 /// Asks about some places. Each has a thread of its own; a single one is divided among all threads.
 pub fn each<P: Sync, A: Send>(
-    cloud: Threads<'_>,
     places: &[P],
-    ask: impl Sync + Fn(Threads<'_>, &P) -> Result<A, core::Error>,
+    options: &Options,
+    ask: impl Sync + Fn(&P, &Options) -> Result<A, core::Error>,
 ) -> Result<Vec<A>, core::Error> {
     if let [place] = places {
-        return Ok(vec![ask(cloud, place)?]);
+        return Ok(vec![ask(place, options)?]);
     }
     let (stop, ask) = (core::stop(), &ask);
-    let alone = cloud.with_threads(1)?;
+    let alone = options.with_threads(1);
     std::thread::scope(|scope| {
         let spawn = |place| {
             let stop = stop.clone();
             scope.spawn(move || {
                 core::stop_by(stop);
-                ask(alone, place)
+                ask(place, &alone)
             })
         };
         let asked: Vec<_> = places.iter().map(spawn).collect();

@@ -66,8 +66,6 @@ pub struct Asked {
 pub struct How {
     /// Only these indices take part.
     pub mask: Option<Vec<bool>>,
-    /// How many threads compute. Without a number, the cloud's size decides.
-    pub threads: Option<usize>,
     /// How many places are asked about, beside the first.
     pub more: usize,
 }
@@ -78,7 +76,7 @@ pub fn read_without_cloud(py: Python<'_>, given: Option<&Bound<'_, PyDict>>) -> 
     if how.mask.is_some() {
         options.within.get_or_insert_default();
     }
-    if how.threads.is_some() {
+    if options.threads > 0 {
         return Err(option(py, "threads needs a PointCloud".into()));
     }
     Ok(options)
@@ -104,7 +102,7 @@ pub fn read(py: Python<'_>, given: Option<&Bound<'_, PyDict>>) -> PyResult<Asked
             continue;
         }
         match row {
-            None => how.threads = Some(count(py, &name, &value)?),
+            None => options.threads = count(py, &name, &value)?,
             Some(("within", ..)) => how.mask = within(py, &value, options)?,
             Some((_, values, _)) => {
                 if !set(options, &name, &value)? {

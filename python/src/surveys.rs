@@ -38,7 +38,7 @@ impl PointCloud {
         options: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Bound<'py, PyArray1<u32>>> {
         let viewpoints = arguments::seats(viewpoints, "viewpoints")?;
-        let asked = options::read(py, options)?;
+        let asked = self.read(py, options)?;
         let mut counts = Vec::new();
         self.in_groups(py, &viewpoints, &asked, on_progress, |cloud, group| {
             let more = cloud.coverage(group, &asked.options)?;
@@ -68,12 +68,12 @@ impl PointCloud {
         options: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Bound<'py, PyArray2<bool>>> {
         let viewpoints = arguments::seats(viewpoints, "viewpoints")?;
-        let asked = options::read(py, options)?;
+        let asked = self.read(py, options)?;
         let shape = [viewpoints.len(), self.__len__(py)?];
         let mut seen = Vec::with_capacity(shape[0] * shape[1]);
         self.in_groups(py, &viewpoints, &asked, on_progress, |cloud, group| {
-            let rows = each(cloud, group, |cloud, seat| {
-                cloud.coverage(slice::from_ref(seat), &asked.options)
+            let rows = each(group, &asked.options, |seat, options| {
+                cloud.coverage(slice::from_ref(seat), options)
             })?;
             seen.extend(rows.iter().flatten().map(|&count| count > 0));
             Ok(())
@@ -109,7 +109,7 @@ impl PointCloud {
         options: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let candidates = arguments::seats(candidates, "candidates")?;
-        let asked = options::read(py, options)?;
+        let asked = self.read(py, options)?;
         let weights = weights.map(|given| numbers(given, "weights")).transpose()?;
         let wrong = || option(py, "share must be a number".into());
         let placing = Placing {
@@ -159,7 +159,7 @@ impl PointCloud {
             height: options::count(py, "height", height)?,
             up: up.map_or(Ok([0.0, 0.0, 1.0]), |up| place(up, "direction"))?,
         };
-        let Asked { options, how } = options::read(py, options)?;
+        let Asked { options, how } = self.read(py, options)?;
         let made = self.ask(py, how, |cloud| cloud.panorama(viewpoint, &options, &size))?;
         let shape = [size.height, width];
         python(py, "Panorama")?.call1((
@@ -214,7 +214,7 @@ impl PointCloud {
         options: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let (py, cameras) = (slf.py(), arguments::cameras(cameras)?);
-        let asked = options::read(py, options)?;
+        let asked = slf.get().read(py, options)?;
         refuse_scores(py, &asked.options, "seen_by")?;
         let views = Self::camera_views(slf, &cameras, &asked, on_progress)?;
         python(py, "seen_by")?.call1((slf.get().__len__(py)?, views))
@@ -238,7 +238,7 @@ impl PointCloud {
     ) -> PyResult<Bound<'py, PyAny>> {
         let given = options;
         let own = arguments::stations(stations, self.__len__(py)?)?;
-        let Asked { mut options, how } = options::read(py, given)?;
+        let Asked { mut options, how } = self.read(py, given)?;
         refuse_scores(py, &options, "calibrate")?;
         let asked = given.map_or_else(|| Ok(PyDict::new(py)), |given| given.copy())?;
         let chosen =
@@ -296,7 +296,7 @@ impl PointCloud {
     ) -> PyResult<VisibilityMap> {
         let viewpoint = place(viewpoint, "viewpoint")?;
         let choices = map::choices(py, points, towards, origin)?;
-        let Asked { options, how } = options::read(py, options)?;
+        let Asked { options, how } = self.read(py, options)?;
         let made = self.ask(py, how, |cloud| {
             cloud.visibility_map(viewpoint, &options, &choices)
         })?;

@@ -10,7 +10,6 @@ use pyo3::types::{PyDict, PyIterator};
 use crate::answers::{option, refused, warn_if_inverted};
 use crate::arguments;
 use crate::cloud::{PointCloud, check_listener, views};
-use crate::options;
 use crate::shared::worked;
 
 /// An image: (height, width, channels).
@@ -78,7 +77,7 @@ impl PointCloud {
     ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>)> {
         check_listener(py, on_progress)?;
         let cameras = arguments::cameras(cameras)?;
-        let mut asked = options::read(py, options)?;
+        let mut asked = self.read(py, options)?;
         let how = choice(&how.0, how.1.as_deref(), &how.2);
         asked.options.scores = how.weights == Weights::Score;
         let length = self.__len__(py)?;
@@ -86,7 +85,7 @@ impl PointCloud {
         let mut images = images.clone();
         let mut done = 0;
         let before = self.changes();
-        for group in cameras.chunks(self.group_size(py, &asked)?) {
+        for group in cameras.chunks(asked.options.threads) {
             let seen = self.ask(py, asked.how.clone(), |cloud| {
                 views(cloud, group, &asked.options)
             })?;

@@ -123,7 +123,7 @@ impl PointCloud {
         options: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let camera = arguments::camera(camera, "camera")?;
-        let Asked { options, how } = options::read(slf.py(), options)?;
+        let Asked { options, how } = slf.get().read(slf.py(), options)?;
         let view = slf.get().ask(slf.py(), how, |cloud| {
             cloud.visible_from_camera(&camera, &options)
         })?;
@@ -147,7 +147,7 @@ impl PointCloud {
         options: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Bound<'py, PyArray1<bool>>> {
         let viewpoint = place(viewpoint, "viewpoint")?;
-        let Asked { options, mut how } = options::read(py, options)?;
+        let Asked { options, mut how } = self.read(py, options)?;
         let positions = Positions::read(positions, "positions")?;
         let points = positions.points();
         how.more = points.len();
@@ -175,7 +175,7 @@ impl PointCloud {
     ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyArray2<u32>>)> {
         let py = slf.py();
         let viewpoint = place(viewpoint, "viewpoint")?;
-        let Asked { options, how } = options::read(py, options)?;
+        let Asked { options, how } = slf.get().read(py, options)?;
         let made = slf.get().ask(py, how, |cloud| {
             cloud.reconstruct(viewpoint, &options, max_edge)
         })?;
@@ -207,7 +207,7 @@ impl PointCloud {
         options: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Bound<'py, PyArray1<f32>>> {
         let lights = arguments::places(lights, "lights")?;
-        let Asked { options, mut how } = options::read(py, options)?;
+        let Asked { options, mut how } = self.read(py, options)?;
         how.more = lights.len();
         let length = self.__len__(py)?;
         let corners = triangles

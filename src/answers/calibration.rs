@@ -11,7 +11,6 @@
 
 use alloc::vec::Vec;
 
-use crate::answers::threads::Threads;
 use crate::base::allocation::{filled, with_capacity};
 use crate::base::error::Error;
 use crate::base::real::{larger, smaller, square_root};
@@ -84,48 +83,6 @@ impl PointCloud {
     /// [`Error::IndexOutOfRange`] for a station's indices; [`Error::Excludes`] unless `options` ask for
     /// [`Inversion::Looks`]; otherwise as [`PointCloud::visible_from`].
     pub fn calibrate(&self, stations: &[Station], options: &Options) -> Result<Calibration, Error> {
-        self.alone().calibrate(stations, options)
-    }
-
-    /// The points that take part in a view, by index, and which of them are a station's own.
-    fn marks_of(&self, station: &Station, options: &Options) -> Result<Vec<Mark>, Error> {
-        let part = self.part(Some(station.viewpoint), options)?;
-        let mut marks: Vec<Mark> = filled(self.len(), Mark::Absent)?;
-        for place in 0..part.sequence.points.len() {
-            for &index in part.sequence.indices_of(place) {
-                marks[index as usize] = Mark::Other;
-            }
-        }
-        for &index in station.indices {
-            let mark = marks
-                .get_mut(index as usize)
-                .ok_or(Error::IndexOutOfRange {
-                    index,
-                    len: self.len(),
-                })?;
-            if *mark == Mark::Other {
-                *mark = Mark::Own;
-            }
-        }
-        Ok(marks)
-    }
-}
-
-/// What a point is to a station.
-#[derive(Clone, Copy, PartialEq)]
-enum Mark {
-    /// It takes no part in the view.
-    Absent,
-    Own,
-    Other,
-}
-
-impl Threads<'_> {
-    /// As [`PointCloud::calibrate`].
-    ///
-    /// # Errors
-    /// As [`PointCloud::calibrate`].
-    pub fn calibrate(&self, stations: &[Station], options: &Options) -> Result<Calibration, Error> {
         if !matches!(options.inversion, Inversion::Looks(_)) {
             return Err(Error::Excludes {
                 option: "calibrate",
@@ -179,6 +136,40 @@ impl Threads<'_> {
         Ok(trials.swap_remove(best).compared_with(&first))
     }
 
+    /// The points that take part in a view, by index, and which of them are a station's own.
+    fn marks_of(&self, station: &Station, options: &Options) -> Result<Vec<Mark>, Error> {
+        let part = self.part(Some(station.viewpoint), options)?;
+        let mut marks: Vec<Mark> = filled(self.len(), Mark::Absent)?;
+        for place in 0..part.sequence.points.len() {
+            for &index in part.sequence.indices_of(place) {
+                marks[index as usize] = Mark::Other;
+            }
+        }
+        for &index in station.indices {
+            let mark = marks
+                .get_mut(index as usize)
+                .ok_or(Error::IndexOutOfRange {
+                    index,
+                    len: self.len(),
+                })?;
+            if *mark == Mark::Other {
+                *mark = Mark::Own;
+            }
+        }
+        Ok(marks)
+    }
+}
+
+/// What a point is to a station.
+#[derive(Clone, Copy, PartialEq)]
+enum Mark {
+    /// It takes no part in the view.
+    Absent,
+    Own,
+    Other,
+}
+
+impl PointCloud {
     fn trial(
         &self,
         stations: &[Station],

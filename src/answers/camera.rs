@@ -2,7 +2,6 @@
 
 use alloc::vec::Vec;
 
-use crate::answers::threads::Threads;
 use crate::answers::visibility::Visibility;
 use crate::base::allocation::with_capacity;
 use crate::base::error::Error;
@@ -53,7 +52,34 @@ impl PointCloud {
         camera: &Camera,
         options: &Options,
     ) -> Result<CameraView, Error> {
-        self.alone().visible_from_camera(camera, options)
+        // The camera is checked first.
+        self.shown(camera, &[])?;
+        let seen = self.visible_from(camera.position(), options)?;
+        let shown = self.shown(camera, seen.indices())?;
+        let inside = || {
+            seen.indices()
+                .iter()
+                .zip(&shown)
+                .filter(|(_, at)| at[2] > 0.0)
+        };
+        let count = inside().count();
+        let mut indices: Vec<u32> = with_capacity(count)?;
+        let mut pixels: Vec<[f32; 2]> = with_capacity(count)?;
+        let mut depths: Vec<f32> = with_capacity(count)?;
+        let mut towards: Vec<[f32; 3]> = with_capacity(count)?;
+        for (&index, &[u, v, depth, x, y, z]) in inside() {
+            indices.push(index);
+            pixels.push([u, v]);
+            depths.push(depth);
+            towards.push([x, y, z]);
+        }
+        Ok(CameraView {
+            visibility: seen.with_indices(indices),
+            pixels,
+            depths,
+            towards,
+            seems_inverted: self.seems_inverted(camera)?,
+        })
     }
 
     /// The part of a view that is in the image of a camera.
@@ -112,47 +138,6 @@ impl PointCloud {
             });
         }
         Ok(shown)
-    }
-}
-
-impl Threads<'_> {
-    /// As [`PointCloud::visible_from_camera`].
-    ///
-    /// # Errors
-    /// As [`PointCloud::visible_from_camera`].
-    pub fn visible_from_camera(
-        &self,
-        camera: &Camera,
-        options: &Options,
-    ) -> Result<CameraView, Error> {
-        // The camera is checked first.
-        self.shown(camera, &[])?;
-        let seen = self.visible_from(camera.position(), options)?;
-        let shown = self.shown(camera, seen.indices())?;
-        let inside = || {
-            seen.indices()
-                .iter()
-                .zip(&shown)
-                .filter(|(_, at)| at[2] > 0.0)
-        };
-        let count = inside().count();
-        let mut indices: Vec<u32> = with_capacity(count)?;
-        let mut pixels: Vec<[f32; 2]> = with_capacity(count)?;
-        let mut depths: Vec<f32> = with_capacity(count)?;
-        let mut towards: Vec<[f32; 3]> = with_capacity(count)?;
-        for (&index, &[u, v, depth, x, y, z]) in inside() {
-            indices.push(index);
-            pixels.push([u, v]);
-            depths.push(depth);
-            towards.push([x, y, z]);
-        }
-        Ok(CameraView {
-            visibility: seen.with_indices(indices),
-            pixels,
-            depths,
-            towards,
-            seems_inverted: self.seems_inverted(camera)?,
-        })
     }
 }
 

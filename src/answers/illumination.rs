@@ -3,7 +3,6 @@
 
 use alloc::vec::Vec;
 
-use crate::answers::threads::Threads;
 use crate::base::allocation::{OutOfMemory, filled, with_capacity};
 use crate::base::error::{Error, in_range};
 use crate::base::sort::sort_keyed;
@@ -69,7 +68,33 @@ impl PointCloud {
         options: &Options,
         lighting: &Lighting,
     ) -> Result<Vec<f32>, Error> {
-        self.alone().illuminate(lights, options, lighting)
+        options.check(QuestionKind::Illuminate)?;
+        let ambient = in_range("ambient", lighting.ambient, 0.0, 1.0)?;
+        in_range("smoothing", lighting.smoothing as f64, 0.0, MOST_ROUNDS)?;
+        let mut corners = lighting.triangles.unwrap_or(&[]).iter().flatten();
+        let len = self.len();
+        if let Some(&index) = corners.find(|&&i| i as usize >= len) {
+            return Err(Error::IndexOutOfRange { index, len });
+        }
+
+        let mut brightness = filled(len, 0.0)?;
+        self.each_view(lights, options, &mut |_, seen| {
+            for &index in seen.indices() {
+                brightness[index as usize] += 1.0;
+            }
+        })?;
+        let share = (1.0 - ambient) / (lights.len().max(1) as f64);
+        for light in &mut brightness {
+            *light = ambient + share * *light;
+        }
+        if lighting.smoothing > 0 && !lights.is_empty() {
+            self.part(None, options)?
+                .soften(&mut brightness, lighting)?;
+        }
+
+        let mut rounded: Vec<f32> = with_capacity(len)?;
+        rounded.extend(brightness.iter().map(|&light| light as f32));
+        Ok(rounded)
     }
 
     fn soften(&self, brightness: &mut Vec<f64>, lighting: &Lighting) -> Result<(), OutOfMemory> {
@@ -92,47 +117,6 @@ impl PointCloud {
             }
         }
         Ok(())
-    }
-}
-
-impl Threads<'_> {
-    /// As [`PointCloud::illuminate`].
-    ///
-    /// # Errors
-    /// As [`PointCloud::illuminate`].
-    pub fn illuminate(
-        &self,
-        lights: &[[f64; 3]],
-        options: &Options,
-        lighting: &Lighting,
-    ) -> Result<Vec<f32>, Error> {
-        options.check(QuestionKind::Illuminate)?;
-        let ambient = in_range("ambient", lighting.ambient, 0.0, 1.0)?;
-        in_range("smoothing", lighting.smoothing as f64, 0.0, MOST_ROUNDS)?;
-        let mut corners = lighting.triangles.unwrap_or(&[]).iter().flatten();
-        let len = self.len();
-        if let Some(&index) = corners.find(|&&i| i as usize >= len) {
-            return Err(Error::IndexOutOfRange { index, len });
-        }
-
-        let mut brightness = filled(len, 0.0)?;
-        self.each_view(self.count, lights, options, &mut |_, seen| {
-            for &index in seen.indices() {
-                brightness[index as usize] += 1.0;
-            }
-        })?;
-        let share = (1.0 - ambient) / (lights.len().max(1) as f64);
-        for light in &mut brightness {
-            *light = ambient + share * *light;
-        }
-        if lighting.smoothing > 0 && !lights.is_empty() {
-            self.part(None, options)?
-                .soften(&mut brightness, lighting)?;
-        }
-
-        let mut rounded: Vec<f32> = with_capacity(len)?;
-        rounded.extend(brightness.iter().map(|&light| light as f32));
-        Ok(rounded)
     }
 }
 

@@ -103,7 +103,6 @@ impl PointCloud {
     /// The threads share the seats, and a view if there are fewer seats.
     pub(crate) fn each_view<S: Copy + Into<Seat> + Sync>(
         &self,
-        threads: usize,
         seats: &[S],
         options: &Options,
         pass: &mut (dyn FnMut(usize, Visibility) + Send),
@@ -114,7 +113,7 @@ impl PointCloud {
             }
         }
         let count = seats.len();
-        let for_each = threads / count.max(1);
+        let for_each = options.with_threads(options.threads / count.max(1));
         let part = if options.has_distance() && count > 0 {
             None
         } else {
@@ -131,26 +130,25 @@ impl PointCloud {
         let view = |memory: &mut ViewMemory, number: usize| {
             let seat = seats[number];
             if let Some(part) = &part {
-                return self.seen_at(part, for_each, memory, seat, options);
+                return self.seen_at(part, memory, seat, &for_each);
             }
             let own = self.part(Some(seat.into().position()), options)?;
             memory.forget();
-            self.seen_at(&own, for_each, memory, seat, options)
+            self.seen_at(&own, memory, seat, &for_each)
         };
-        deal(threads, count, &ViewMemory::new, &view, pass)
+        deal(options.threads, count, &ViewMemory::new, &view, pass)
     }
 
     /// The view of a part of this cloud. Compiled for each kind of seat: what only viewpoints ask for needs no camera.
     fn seen_at<S: Into<Seat>>(
         &self,
         part: &Self,
-        threads: usize,
         memory: &mut ViewMemory,
         seat: S,
         options: &Options,
     ) -> Result<Visibility, Error> {
         let seat = seat.into();
-        let seen = part.seen_by(threads, memory, seat.position(), options)?;
+        let seen = part.seen_by(memory, seat.position(), options)?;
         match seat {
             Seat::Viewpoint(_) => Ok(seen),
             Seat::Camera(camera) => self.in_image(&camera, seen),

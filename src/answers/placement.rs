@@ -2,7 +2,6 @@
 
 use alloc::vec::Vec;
 
-use crate::answers::threads::Threads;
 use crate::base::allocation::{copied, reserve, with_capacity};
 use crate::base::error::{Error, in_range};
 use crate::cloud::point_cloud::PointCloud;
@@ -64,13 +63,14 @@ impl PointCloud {
         options: &Options,
         placing: &Placing,
     ) -> Result<Placement, Error> {
-        self.alone().place_viewpoints(candidates, options, placing)
+        let mut choice = Choice::new(placing)?;
+        choice.look(self, candidates, options)?;
+        choice.choose(self, candidates, options)
     }
 
     /// The indices that these candidates see, each with its number.
     fn views_of<S: Copy + Into<Seat> + Sync>(
         &self,
-        threads: usize,
         asked: &[usize],
         candidates: &[S],
         options: &Options,
@@ -78,27 +78,10 @@ impl PointCloud {
         let mut seats: Vec<S> = with_capacity(asked.len())?;
         seats.extend(asked.iter().map(|&number| candidates[number]));
         let mut views = with_capacity(asked.len())?;
-        self.each_view(threads, &seats, options, &mut |at, seen| {
+        self.each_view(&seats, options, &mut |at, seen| {
             views.push((asked[at], seen.into_indices()));
         })?;
         Ok(views)
-    }
-}
-
-impl Threads<'_> {
-    /// As [`PointCloud::place_viewpoints`].
-    ///
-    /// # Errors
-    /// As [`PointCloud::place_viewpoints`].
-    pub fn place_viewpoints<S: Copy + Into<Seat> + Sync>(
-        &self,
-        candidates: &[S],
-        options: &Options,
-        placing: &Placing,
-    ) -> Result<Placement, Error> {
-        let mut choice = Choice::new(placing)?;
-        choice.look(*self, candidates, options)?;
-        choice.choose(*self, candidates, options)
     }
 }
 
@@ -109,13 +92,13 @@ impl Threads<'_> {
 /// use hidden_point_removal::{Choice, Options, Placing, PointCloud};
 ///
 /// let cloud = PointCloud::new(&[[0.0, 0.0, 1.0], [0.0, 0.0, 2.0], [1.0, 0.0, 0.0]])?;
-/// let (cloud, options) = (cloud.with_threads(1)?, Options::default());
+/// let options = Options::default();
 /// let candidates = [[0.0, 0.0, 5.0], [0.0, 0.0, 6.0], [0.0, 0.0, -5.0]];
 /// let mut choice = Choice::new(&Placing::default())?;
 /// for group in candidates.chunks(2) {
-///     choice.look(cloud, group, &options)?;
+///     choice.look(&cloud, group, &options)?;
 /// }
-/// assert_eq!(choice.choose(cloud, &candidates, &options)?.chosen, [0, 2]);
+/// assert_eq!(choice.choose(&cloud, &candidates, &options)?.chosen, [0, 2]);
 /// # Ok::<(), hidden_point_removal::Error>(())
 /// ```
 #[derive(Clone, Debug)]
@@ -175,14 +158,14 @@ impl Choice {
     /// [`Error::OutOfRange`] for the number of weights; otherwise as [`PointCloud::coverage`].
     pub fn look<S: Copy + Into<Seat> + Sync>(
         &mut self,
-        cloud: Threads<'_>,
+        cloud: &PointCloud,
         group: &[S],
         options: &Options,
     ) -> Result<(), Error> {
         let first = self.gains.len();
         self.reserve(cloud.len(), first + group.len())?;
         options.check(QuestionKind::PlaceViewpoints)?;
-        cloud.each_view(cloud.count, group, options, &mut |number, seen| {
+        cloud.each_view(group, options, &mut |number, seen| {
             self.take(first + number, seen.indices());
         })
     }
@@ -193,7 +176,7 @@ impl Choice {
     /// As [`Choice::look`].
     pub fn choose<S: Copy + Into<Seat> + Sync>(
         mut self,
-        cloud: Threads<'_>,
+        cloud: &PointCloud,
         candidates: &[S],
         options: &Options,
     ) -> Result<Placement, Error> {
@@ -215,8 +198,8 @@ impl Choice {
             if self.go_on(&view_of).is_none() {
                 return self.placed();
             }
-            let asked = highest_of(&self.gains, cloud.count)?;
-            views = cloud.views_of(cloud.count, &asked, candidates, options)?;
+            let asked = highest_of(&self.gains, options.threads.max(1))?;
+            views = cloud.views_of(&asked, candidates, options)?;
         }
     }
 

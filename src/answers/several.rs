@@ -1,7 +1,6 @@
 //! One answer from several viewpoints (paper §5: more viewpoints around C help at
 //! silhouettes).
 
-use crate::answers::threads::Threads;
 use crate::answers::visibility::Visibility;
 use crate::base::allocation::{filled, with_capacity};
 use crate::base::error::{Error, in_range};
@@ -32,7 +31,7 @@ impl PointCloud {
         viewpoints: &[S],
         options: &Options,
     ) -> Result<Visibility, Error> {
-        self.alone().visible_from_any(viewpoints, options)
+        self.visible_from_several(1, viewpoints, options)
     }
 
     /// Which points are visible from at least `k` of `viewpoints`? Otherwise as
@@ -61,7 +60,8 @@ impl PointCloud {
         viewpoints: &[S],
         options: &Options,
     ) -> Result<Visibility, Error> {
-        self.alone().visible_from_at_least(k, viewpoints, options)
+        in_range("k", k as f64, 1.0, viewpoints.len() as f64)?;
+        self.visible_from_several(k, viewpoints, options)
     }
 
     /// The answer from no viewpoint.
@@ -71,34 +71,6 @@ impl PointCloud {
             _ => self.resolved_inversion(options)?,
         };
         self.answer(&[], ChosenRadius::unit(0.0), inversion)
-    }
-}
-
-impl Threads<'_> {
-    /// As [`PointCloud::visible_from_any`].
-    ///
-    /// # Errors
-    /// As [`PointCloud::visible_from_any`].
-    pub fn visible_from_any<S: Copy + Into<Seat> + Sync>(
-        &self,
-        viewpoints: &[S],
-        options: &Options,
-    ) -> Result<Visibility, Error> {
-        self.visible_from_several(1, viewpoints, options)
-    }
-
-    /// As [`PointCloud::visible_from_at_least`].
-    ///
-    /// # Errors
-    /// As [`PointCloud::visible_from_at_least`].
-    pub fn visible_from_at_least<S: Copy + Into<Seat> + Sync>(
-        &self,
-        k: usize,
-        viewpoints: &[S],
-        options: &Options,
-    ) -> Result<Visibility, Error> {
-        in_range("k", k as f64, 1.0, viewpoints.len() as f64)?;
-        self.visible_from_several(k, viewpoints, options)
     }
 
     fn visible_from_several<S: Copy + Into<Seat> + Sync>(
@@ -111,7 +83,7 @@ impl Threads<'_> {
         let mut views: Vec<u32> = filled(self.len(), 0)?;
         let mut joined: Option<(usize, Visibility)> = None;
         let size = |view: &Visibility| (view.radius(), view.scale());
-        self.each_view(self.count, viewpoints, options, &mut |number, seen| {
+        self.each_view(viewpoints, options, &mut |number, seen| {
             for &index in seen.indices() {
                 views[index as usize] += 1;
             }
@@ -208,23 +180,9 @@ impl PointCloud {
         viewpoints: &[S],
         options: &Options,
     ) -> Result<Vec<u32>, Error> {
-        self.alone().coverage(viewpoints, options)
-    }
-}
-
-impl Threads<'_> {
-    /// As [`PointCloud::coverage`].
-    ///
-    /// # Errors
-    /// As [`PointCloud::coverage`].
-    pub fn coverage<S: Copy + Into<Seat> + Sync>(
-        &self,
-        viewpoints: &[S],
-        options: &Options,
-    ) -> Result<Vec<u32>, Error> {
         let mut counts: Vec<u32> = filled(self.len(), 0)?;
         options.check(QuestionKind::Coverage)?;
-        self.each_view(self.count, viewpoints, options, &mut |_, seen| {
+        self.each_view(viewpoints, options, &mut |_, seen| {
             let indices = seen.indices().iter();
             indices.for_each(|&index| counts[index as usize] += 1);
         })?;

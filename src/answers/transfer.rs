@@ -10,7 +10,6 @@ use alloc::vec::Vec;
 use glam::DVec3;
 
 use crate::answers::camera::CameraView;
-use crate::answers::threads::Threads;
 use crate::base::allocation::{copied, filled, push, reserve, with_capacity};
 use crate::base::error::{Error, in_range};
 use crate::base::real::floor;
@@ -131,22 +130,6 @@ impl PointCloud {
     /// # Errors
     /// [`Error::OutOfRange`] for images of another size or number; [`Error::Excludes`]; otherwise as
     /// [`PointCloud::visible_from_camera`].
-    pub fn transfer<'a>(
-        &self,
-        cameras: &[Camera],
-        images: impl IntoIterator<Item = Image<'a>>,
-        options: &Options,
-        how: &TransferOptions,
-    ) -> Result<Transferred, Error> {
-        self.alone().transfer(cameras, images, options, how)
-    }
-}
-
-impl Threads<'_> {
-    /// As [`PointCloud::transfer`].
-    ///
-    /// # Errors
-    /// As [`PointCloud::transfer`].
     pub fn transfer<'a>(
         &self,
         cameras: &[Camera],

@@ -4,7 +4,6 @@ use alloc::vec::Vec;
 
 use crate::answers::looks::{Projection, Question, even_scales, scores_of_indices};
 use crate::answers::memory::ViewMemory;
-use crate::answers::threads::Threads;
 use crate::base::allocation::{OutOfMemory, copied, filled, with_capacity};
 use crate::base::bits::{bits_of, places};
 use crate::base::error::Error;
@@ -210,15 +209,13 @@ impl PointCloud {
         options.check(QuestionKind::View)?;
         let part = self.part(Some(viewpoint), options)?;
         memory.see(options.region(Some(viewpoint))?);
-        part.seen_by(1, memory, viewpoint, options)
+        part.seen_by(memory, viewpoint, options)
     }
 
-    /// The view of all points of this cloud. So many threads share it where it can be
-    /// divided.
+    /// The view of all points of this cloud.
     #[inline(never)]
     pub(crate) fn seen_by(
         &self,
-        threads: usize,
         memory: &mut ViewMemory,
         viewpoint: [f64; 3],
         options: &Options,
@@ -226,19 +223,18 @@ impl PointCloud {
         if let Some(count) = looks(options)? {
             return self.seen_by_looks(memory, Projection::Perspective(viewpoint), count, options);
         }
-        self.seen_by_hull(threads, &mut memory.hull, viewpoint, options)
+        self.seen_by_hull(&mut memory.hull, viewpoint, options)
     }
 
     /// The view of one hull, without options that choose points. `memory` holds the last one.
     pub(crate) fn seen_by_hull(
         &self,
-        threads: usize,
         memory: &mut hull::Memory,
         viewpoint: [f64; 3],
         options: &Options,
     ) -> Result<Visibility, Error> {
         let view = self.view(viewpoint, options)?;
-        let shared = self.marked_by(threads, viewpoint, &view)?;
+        let shared = self.marked_by(options.threads, viewpoint, &view)?;
         let visible = match &shared {
             Some(shared) => shared,
             None => {
@@ -337,22 +333,6 @@ impl PointCloud {
             ..Options::default()
         };
         Ok(self.view(viewpoint, &options)?.chosen)
-    }
-}
-
-impl Threads<'_> {
-    /// As [`PointCloud::visible_from`].
-    ///
-    /// # Errors
-    /// As [`PointCloud::visible_from`].
-    pub fn visible_from(
-        &self,
-        viewpoint: [f64; 3],
-        options: &Options,
-    ) -> Result<Visibility, Error> {
-        options.check(QuestionKind::View)?;
-        let part = self.part(Some(viewpoint), options)?;
-        part.seen_by(self.count, &mut ViewMemory::new(), viewpoint, options)
     }
 }
 

@@ -99,6 +99,12 @@ pub struct Options {
     ///
     /// [`PointCloud::masked`]: crate::PointCloud::masked
     pub within: Option<Within>,
+    /// How many threads compute, at most 256; 0 and 1 are the caller's alone. They change no bit of an answer.
+    /// Several viewpoints are shared among the threads. If there are fewer viewpoints than threads, each view is divided
+    /// by direction. This needs spherical flipping with an exponent below 8, and gains little below 200,000 points. While
+    /// a question is answered, each thread takes about 150 bytes for each visible point of its share, and one byte for
+    /// each point. One thread answers all other questions, and all without the feature `std`.
+    pub threads: usize,
 }
 
 /// A value of an option as another language gives it: [`Options::set`].
@@ -184,6 +190,7 @@ impl Options {
         thickness: None,
         surface: None,
         within: None,
+        threads: 0,
     };
 
     /// Options with R given in the cloud's units.
@@ -247,5 +254,11 @@ impl Options {
     pub fn with_within(self, within: impl Into<Option<Within>>) -> Self {
         let within = within.into();
         Self { within, ..self }
+    }
+
+    /// Sets [`Options::threads`](field@Self::threads).
+    #[must_use]
+    pub const fn with_threads(self, threads: usize) -> Self {
+        Self { threads, ..self }
     }
 }

@@ -1,6 +1,7 @@
 //! Which options exclude each other, and which questions have no answer to an option: all of it.
 
-use crate::base::error::Error;
+use crate::base::error::{Error, in_range};
+use crate::base::threads::HAS_THREADS;
 use crate::view::options::{Inversion, Options, Radius};
 
 /// A question that does not go with every option.
@@ -18,6 +19,9 @@ pub(crate) enum QuestionKind {
     Illuminate,
     Merge,
 }
+
+/// More threads would only wait for memory.
+const MOST_THREADS: f64 = 256.0;
 
 /// Something that options ask for.
 struct Feature {
@@ -109,6 +113,9 @@ impl Options {
     /// Refuses what this question cannot answer, and options that exclude each other.
     #[inline(never)]
     pub(crate) fn check(&self, question: QuestionKind) -> Result<(), Error> {
+        if HAS_THREADS {
+            in_range("threads", self.threads.max(1) as f64, 1.0, MOST_THREADS)?;
+        }
         let (name, excluded) = question.excludes();
         if let Some(option) = self.first_of(excluded) {
             return Err(Error::Excludes {

@@ -15,10 +15,7 @@ fn of_several_refusals_the_first_one_is_reported() {
         viewpoints[bad] = [bad as f64, f64::NAN, 0.0];
     }
     for _ in 0..20 {
-        let refused = cloud
-            .with_threads(8)
-            .unwrap()
-            .coverage(&viewpoints, &Options::default());
+        let refused = cloud.coverage(&viewpoints, &Options::default().with_threads(8));
         let Err(Error::Viewpoint { viewpoint }) = refused else {
             panic!("{refused:?}");
         };
@@ -27,11 +24,13 @@ fn of_several_refusals_the_first_one_is_reported() {
 }
 
 #[test]
-fn a_number_of_threads_is_from_1_to_256() {
+fn more_than_256_threads_are_refused() {
     let cloud = PointCloud::new(&[[0.0; 3]]).unwrap();
-    for count in [0, 257, usize::MAX] {
-        let found = cloud.with_threads(count);
-        refused("option", "threads must be from 1 to 256", found);
+    let seen = |count| cloud.visible_from([1.0; 3], &Options::default().with_threads(count));
+    for count in [257, usize::MAX] {
+        refused("option", "threads must be from 1 to 256", seen(count));
     }
-    assert!(cloud.with_threads(256).is_ok());
+    for count in [0, 1, 256] {
+        assert!(seen(count).is_ok());
+    }
 }

@@ -99,7 +99,7 @@ impl PointCloud {
         let image = panorama.image()?;
         let part = self.part(Some(viewpoint), options)?;
         memory.see(options.region(Some(viewpoint))?);
-        let seen = part.seen_by(1, memory, viewpoint, options)?;
+        let seen = part.seen_by(memory, viewpoint, options)?;
         let mut is_hidden = filled(part.len(), true)?;
         for &index in seen.indices() {
             is_hidden[index as usize] = false;

@@ -2,7 +2,7 @@
 
 use std::fmt::Debug;
 
-use hidden_point_removal::{Convention, Error, Lighting, Options, Placing, PointCloud, Threads};
+use hidden_point_removal::{Convention, Error, Lighting, Options, Placing, PointCloud};
 
 use super::{options, same};
 use crate::common::cameras::camera;
@@ -14,7 +14,7 @@ const COUNTS: [usize; 3] = [2, 3, 8];
 
 /// The answers to all questions that threads share, as text. Numbers that differ in a bit differ
 /// in their text.
-fn answers(cloud: &Threads, viewpoints: &[[f64; 3]], options: &Options) -> Vec<String> {
+fn answers(cloud: &PointCloud, viewpoints: &[[f64; 3]], options: &Options) -> Vec<String> {
     fn text<T: Debug>(name: &str, answer: Result<T, Error>) -> String {
         format!("{name}: {answer:?}")
     }
@@ -58,10 +58,7 @@ pub fn check(scene: &Scene, rng: &mut Rng) -> Result<(), String> {
     for _ in 0..rng.below(4) {
         viewpoints.push(structured::viewpoint(rng, &scene.points));
     }
-    let with = |count| {
-        let cloud = cloud.with_threads(count).expect("a number of threads");
-        answers(&cloud, &viewpoints, &options)
-    };
+    let with = |count| answers(&cloud, &viewpoints, &options.with_threads(count));
     let one = with(1);
     for count in COUNTS {
         for (answer, expected) in with(count).iter().zip(&one) {

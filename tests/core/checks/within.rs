@@ -51,9 +51,8 @@ pub fn check(scene: &Scene, rng: &mut Rng) -> Result<(), String> {
     if expected.is_err() {
         return Ok(());
     }
-    let threads = cloud.with_threads(2 + rng.below(3));
-    let shared = threads.map_err(|error| error.to_string())?;
-    let shared = facts(shared.visible_from(*viewpoint, &options), None);
+    let shared = options.with_threads(2 + rng.below(3));
+    let shared = facts(cloud.visible_from(*viewpoint, &shared), None);
     same(&title("threads"), shared, expected)?;
     several(&cloud, scene, &within, &plain, rng)
 }

@@ -9,8 +9,7 @@ pub fn compare(
     threads: usize,
 ) -> Result<(), String> {
     let whole = cloud.visible_from(viewpoint, options);
-    let shared = cloud.with_threads(threads).expect("a number of threads");
-    let shared = shared.visible_from(viewpoint, options);
+    let shared = cloud.visible_from(viewpoint, &options.with_threads(threads));
     let text = |answer: &Result<_, _>| format!("{answer:?}");
     let (whole, shared) = match (whole, shared) {
         (Ok(whole), Ok(shared)) if whole == shared => return Ok(()),
