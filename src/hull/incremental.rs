@@ -12,7 +12,7 @@
 use alloc::vec::Vec;
 use glam::DVec3;
 
-use crate::base::allocation::{OutOfMemory, reserve};
+use crate::base::allocation::{OutOfMemory, push};
 use crate::base::real::one_by_one;
 use crate::hull::dual_plane::{Plane, Spoke};
 use crate::hull::predicates::{Sign, side_of_face, side_of_origin};
@@ -39,18 +39,11 @@ pub(super) struct Vertices {
 }
 
 impl Vertices {
-    #[inline]
-    fn reserve(&mut self, more: usize) -> Result<(), OutOfMemory> {
-        reserve(&mut self.positions, more)?;
-        reserve(&mut self.points, more)
-    }
-
     /// Gives a vertex number to the point `point`, which is flipped to `q`.
     #[inline]
     pub(super) fn add(&mut self, point: u32, q: DVec3) -> Result<Vertex, OutOfMemory> {
-        self.reserve(1)?;
-        self.positions.push(one_by_one(q));
-        self.points.push(point);
+        push(&mut self.positions, one_by_one(q))?;
+        push(&mut self.points, point)?;
         Ok((self.positions.len() - 1) as Vertex)
     }
 
@@ -112,29 +105,32 @@ impl Vertices {
 
 impl Hull {
     /// Becomes the first tetrahedron: the origin and `corners`, counter-clockwise
-    /// seen from outside. Reserves memory for half of `count` vertices where it can. A list
-    /// that grows later needs memory for two copies for a moment.
+    /// seen from outside.
     pub(super) fn start(
         &mut self,
         corners: [(u32, DVec3); 3],
         reach: f64,
-        count: usize,
     ) -> Result<(), OutOfMemory> {
         let vertices = &mut self.vertices;
         vertices.positions.clear();
         vertices.points.clear();
         vertices.reach = reach;
-        vertices
-            .reserve(4 + count / 2)
-            .or_else(|_| vertices.reserve(4))?;
         vertices.add(u32::MAX, DVec3::ZERO)?;
         for (point, q) in corners {
             vertices.add(point, q)?;
         }
-        self.surface.reserve(count);
         self.surface
             .start(ORIGIN, [1, 2, 3], |corners| vertices.plane(corners))?;
         Ok(())
+    }
+
+    /// Makes room for `vertices` vertices and `faces` faces, if there is enough memory. A list that grows later needs
+    /// memory for two copies for a moment.
+    pub(super) fn reserve(&mut self, vertices: usize, faces: usize) {
+        let more = vertices.saturating_sub(self.vertices.points.len());
+        let _ = self.vertices.positions.try_reserve_exact(more);
+        let _ = self.vertices.points.try_reserve_exact(more);
+        self.surface.reserve(faces);
     }
 
     /// Makes a vertex of `q`, which is strictly outside of face `start`. Returns an outer face

@@ -147,7 +147,7 @@ impl KeptHull {
             None => [-e, -second],
         };
         let hull = &mut self.memory.hull;
-        hull.start(corners, flip.reach(), flipped.len())?;
+        hull.start(corners, flip.reach())?;
         let mut hint = 0;
         let visible = (0..flipped.len() as u32).filter(|&k| self.memory.visible[k as usize]);
         for q in opposite.into_iter().chain(visible.filter_map(at)) {

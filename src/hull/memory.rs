@@ -112,6 +112,13 @@ impl Memory {
                 hint = self.add(index, flipped, hint)?;
             }
         }
+        // Eight times as many points have 4 to 8 times as many vertices and faces.
+        let hull = &mut self.hull;
+        let [vertices, faces] = [hull.vertex_count(), hull.surface.slots()].map(|many| 8 * many);
+        hull.reserve(
+            vertices.min(1 + flipped.len()),
+            faces.min(2 * flipped.len()),
+        );
         Ok(())
     }
 

@@ -31,7 +31,7 @@ pub(crate) fn mark_visible(
     }
     // Where the flip is slow, the map would flip most points of the last round once more, which
     // takes longer than to locate them.
-    if start(&flipped, points.len(), memory)? {
+    if start(&flipped, points.len() / 16, memory)? {
         memory.add_all(&flipped, flip.is_fast())?;
         memory.finish(&flipped)?;
     }
@@ -45,7 +45,7 @@ pub(crate) fn complete(
     memory: &mut Memory,
 ) -> Result<(), OutOfMemory> {
     let flipped = Flipped::of(points, &[], flip);
-    if start(&flipped, points.len(), memory)? {
+    if start(&flipped, points.len() / 16, memory)? {
         memory.add_all(&flipped, false)?;
         memory.complete();
     }
@@ -62,7 +62,7 @@ pub(crate) fn mark_sector(
     memory: &mut Memory,
 ) -> Result<(), OutOfMemory> {
     let flipped = Flipped::of(points, blocks, flip);
-    if start(&flipped, division.near_points(), memory)? {
+    if start(&flipped, division.near_points() / 2, memory)? {
         return share::mark_visible(memory, &flipped, division);
     }
     division.keep_own(&mut memory.visible);
@@ -82,7 +82,7 @@ pub(crate) fn go_on(
 ) -> Result<bool, OutOfMemory> {
     let flipped = Flipped::of(points, blocks, flip);
     let Some(mut round) = memory.begun(flip) else {
-        if !start(&flipped, points.len(), memory)? {
+        if !start(&flipped, points.len() / 16, memory)? {
             return Ok(true);
         }
         memory.add_coarse_rounds(&flipped)?;
@@ -96,7 +96,7 @@ pub(crate) fn go_on(
     Ok(is_done)
 }
 
-/// Starts a hull in space, with room for `count` points. Returns false if all points are in one
+/// Starts a hull in space, with room for `count` vertices. Returns false if all points are in one
 /// plane with the viewpoint, except for roundings; then the visible ones are marked.
 #[inline(never)]
 fn start(flipped: &Flipped, count: usize, memory: &mut Memory) -> Result<bool, OutOfMemory> {
@@ -108,7 +108,8 @@ fn start(flipped: &Flipped, count: usize, memory: &mut Memory) -> Result<bool, O
         flat::mark_visible(flipped.len() as u32, &at, &mut memory.visible)?;
         return Ok(false);
     };
-    memory.hull.start(corners, flipped.reach(), count)?;
+    memory.hull.start(corners, flipped.reach())?;
+    memory.hull.reserve(count, 2 * count);
     if let Some(order) = AngularOrder::of(&corners, flipped) {
         memory.add_by_angle(&order, flipped)?;
         memory.finish(flipped)?;

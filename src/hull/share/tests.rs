@@ -38,7 +38,7 @@ fn near_share<'a>(
 ) -> SectorHull<'a> {
     let corners = outer_boundary::seed(flipped).unwrap();
     let room = flipped.len();
-    memory.hull.start(corners, flipped.reach(), room).unwrap();
+    memory.hull.start(corners, flipped.reach()).unwrap();
     memory.clear_marks(room).unwrap();
     let mut sector = SectorHull {
         hull: &mut memory.hull,
