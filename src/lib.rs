@@ -84,6 +84,7 @@ pub use answers::calibration::{Calibration, Station};
 pub use answers::camera::CameraView;
 pub use answers::horizon::Horizon;
 pub use answers::illumination::Lighting;
+pub use answers::image::{Image, Pixels};
 pub use answers::merge::{merge_visible, merge_visible_u64};
 pub use answers::observer::Observer;
 pub use answers::panorama::{Panorama, PanoramaOptions};
@@ -91,7 +92,7 @@ pub use answers::placement::{Choice, Placement, Placing};
 pub use answers::reconstruct::Reconstruction;
 pub use answers::several::ring_of_viewpoints;
 pub use answers::transfer::{
-    Image, Merge, Pixels, Sampling, Transfer, TransferOptions, Transferred, Values, Weights,
+    Merge, Sampling, Transfer, TransferOptions, Transferred, Values, Weights,
 };
 pub use answers::visibility::Visibility;
 pub use answers::visibility_map::{MapOptions, VisibilityMap};

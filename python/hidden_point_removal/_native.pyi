@@ -148,7 +148,7 @@ class PointCloud:
         self,
         cameras: Iterable[CameraLike],
         images: Iterator[NDArray[Any]],
-        how: tuple[str, str | None, str],
+        how: list[int],
         on_progress: Callable[[float], object] | None = None,
         **options: Unpack[Options],
     ) -> tuple[NDArray[Any], NDArray[np.uint32]]: ...

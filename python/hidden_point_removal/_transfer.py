@@ -55,9 +55,11 @@ def transfer(
     or float64 for images of float64 and of integers of 32 bits and more, so that labels up to 2**53 stay whole; and uint32, how
     many cameras gave a value to each index.
     """
-    merge = _word("merge", merge, ("mean", "median", "vote", "best")) or "mean"
-    weights = _word("weights", weights, ("distance", "angle", "score")) or ("distance" if merge == "best" else None)
-    sampling = _word("sampling", sampling, ("nearest", "bilinear")) or "nearest"
+    how = [
+        _number("merge", merge, ("mean", "median", "vote", "best")),
+        0 if weights is None and merge != "best" else 1 + _number("weights", weights, ("distance", "angle", "score")),
+        _number("sampling", sampling, ("nearest", "bilinear")),
+    ]
     if not isinstance(cloud, PointCloud):
         raise refusal("option", f"an argument must not be {cloud!r:.60}")
     if options.get("scores") is not None and options["scores"] is not False:
@@ -67,7 +69,7 @@ def transfer(
         options["looks"] = 3
     cameras = listed(cameras, "cameras")
     pictures = _Pictures(images, _lenses(cameras))
-    values, seen = cloud._transfer(cameras, iter(pictures), (merge, weights, sampling), on_progress, **options)
+    values, seen = cloud._transfer(cameras, iter(pictures), how, on_progress, **options)
     if not cameras:
         values = np.full(len(cloud), np.nan, np.float32)
     return values.reshape(len(cloud), *pictures.pixel), seen
@@ -97,19 +99,26 @@ class _Pictures:
         self.pixel: tuple[int, ...] = ()
 
     def __iter__(self) -> Iterator[NDArray[Any]]:
-        for number, image in enumerate(self.images):
-            name = f"images[{number}]"
-            picture = _picture(image, name)
-            if number < len(self.lenses) and list(picture.shape[1::-1]) != self.lenses[number][4:]:
-                width, height = self.lenses[number][4:]
-                got = f"{picture.shape[1]} x {picture.shape[0]}"
-                raise refusal("option", f"{name} must have the size of its camera's image, {width:g} x {height:g}, got {got}")
-            if number == 0:
-                self.pixel = picture.shape[2:]
-            if picture.shape[2:3] != self.pixel[:1] or 0 in picture.shape[2:]:
-                channels = [max(1, math.prod(shape)) for shape in (self.pixel, picture.shape[2:])]
-                raise refusal("option", f"{name} must have {channels[0]} channels, got {math.prod(picture.shape[2:])}")
-            yield np.ascontiguousarray(picture.reshape(*picture.shape[:2], -1))
+        number = 0
+        for image in self.images:
+            yield self._read(image, number)
+            number += 1
+            # It is given up before the next one comes.
+            del image
+
+    def _read(self, image: Any, number: int) -> NDArray[Any]:
+        name = f"images[{number}]"
+        picture = _picture(image, name)
+        if number < len(self.lenses) and list(picture.shape[1::-1]) != self.lenses[number][4:]:
+            width, height = self.lenses[number][4:]
+            got = f"{picture.shape[1]} x {picture.shape[0]}"
+            raise refusal("option", f"{name} must have the size of its camera's image, {width:g} x {height:g}, got {got}")
+        if number == 0:
+            self.pixel = picture.shape[2:]
+        if picture.shape[2:3] != self.pixel[:1] or 0 in picture.shape[2:]:
+            channels = [max(1, math.prod(shape)) for shape in (self.pixel, picture.shape[2:])]
+            raise refusal("option", f"{name} must have {channels[0]} channels, got {math.prod(picture.shape[2:])}")
+        return np.ascontiguousarray(picture.reshape(*picture.shape[:2], -1))
 
 
 def _picture(given: Any, name: str) -> NDArray[Any]:
@@ -129,10 +138,12 @@ def _picture(given: Any, name: str) -> NDArray[Any]:
     if kind == "u" and size == 1:
         return array
     is_single = size <= 2 or (kind == "f" and size == 4)
-    return array.astype(np.float32 if is_single else np.float64)
+    return array.astype(np.float32 if is_single else np.float64, copy=False)
 
 
-def _word(name: str, given: Any, words: Any) -> Any:
-    if given is not None and (not isinstance(given, str) or given not in words):
+def _number(name: str, given: Any, words: tuple[str, ...]) -> int:
+    """The place of a word. The first one is the usual one."""
+    word = words[0] if given is None else given
+    if not isinstance(word, str) or word not in words:
         raise refusal("option", f"{name} must be one of {', '.join(words)}, got {given!r:.60}")
-    return given
+    return words.index(word)

@@ -1,8 +1,6 @@
 //! From images to points.
 
-use hidden_point_removal::{
-    Image, Merge, Pixels, Sampling, Transfer, TransferOptions, Values, Weights,
-};
+use hidden_point_removal::{Image, Pixels, Transfer, TransferOptions, Values, Weights};
 use numpy::{IntoPyArray, PyArrayMethods, PyReadonlyArray3, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyIterator};
@@ -40,45 +38,23 @@ impl Picture<'_> {
     }
 }
 
-/// How values are taken, by the words of Python.
-fn choice(merge: &str, weights: Option<&str>, sampling: &str) -> TransferOptions {
-    TransferOptions {
-        merge: match merge {
-            "median" => Merge::Median,
-            "vote" => Merge::Vote,
-            "best" => Merge::Best,
-            _ => Merge::Mean,
-        },
-        weights: match weights {
-            Some("distance") => Weights::Distance,
-            Some("angle") => Weights::Angle,
-            Some("score") => Weights::Score,
-            _ => Weights::Equal,
-        },
-        sampling: match sampling {
-            "bilinear" => Sampling::Bilinear,
-            _ => Sampling::Nearest,
-        },
-    }
-}
-
 #[pymethods]
 impl PointCloud {
-    /// The values of `hidden_point_removal.transfer`, which checks the words. An image is taken when its camera was asked.
+    /// The values of `hidden_point_removal.transfer`, which numbers the words. An image is taken when its camera was asked.
     #[pyo3(signature = (cameras, images, how, on_progress=None, **options))]
     fn _transfer<'py>(
         &self,
         py: Python<'py>,
         cameras: &Bound<'_, PyAny>,
         images: &Bound<'py, PyIterator>,
-        how: (String, Option<String>, String),
+        how: [usize; 3],
         on_progress: Option<&Bound<'_, PyAny>>,
         options: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>)> {
         check_listener(py, on_progress)?;
         let cameras = arguments::cameras(cameras)?;
         let mut asked = self.read(py, options)?;
-        let how = choice(&how.0, how.1.as_deref(), &how.2);
+        let how = TransferOptions::of(how[0], how[1], how[2]);
         asked.options.scores = how.weights == Weights::Score;
         let length = self.__len__(py)?;
         let mut transfer = Transfer::new(length, &how).map_err(|error| refused(py, error))?;

@@ -10,9 +10,9 @@ use alloc::vec::Vec;
 use glam::DVec3;
 
 use crate::answers::camera::CameraView;
-use crate::base::allocation::{copied, filled, push, reserve, with_capacity};
+use crate::answers::image::{Image, Pixels, Raster};
+use crate::base::allocation::{OutOfMemory, copied, filled, push, reserve, with_capacity};
 use crate::base::error::{Error, in_range};
-use crate::base::real::floor;
 use crate::base::sort::{Keyed, ordered, sort_keyed};
 use crate::cloud::point_cloud::PointCloud;
 use crate::view::camera::Camera;
@@ -67,25 +67,22 @@ pub struct TransferOptions {
     pub sampling: Sampling,
 }
 
-/// An image of the size of its camera's, row by row from above, the channels of a pixel side by side. A pixel with a
-/// NaN gives no value, nor one with alpha 0 in an image of 4 bytes a pixel.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Image<'a> {
-    /// The numbers.
-    pub pixels: Pixels<'a>,
-    /// How many numbers a pixel has.
-    pub channels: usize,
-}
-
-/// The numbers of an image.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Pixels<'a> {
-    /// Bytes.
-    Bytes(&'a [u8]),
-    /// Single precision.
-    Singles(&'a [f32]),
-    /// Double precision, which also holds whole numbers up to 2⁵³.
-    Doubles(&'a [f64]),
+impl TransferOptions {
+    /// The choices by their numbers in the lists of `src/options.json`; weights count from 1. For bindings.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn of(merge: usize, weights: usize, sampling: usize) -> Self {
+        use Weights::{Angle, Distance, Equal, Score};
+        let merges = [Merge::Mean, Merge::Median, Merge::Vote, Merge::Best];
+        let samplings = [Sampling::Nearest, Sampling::Bilinear];
+        Self {
+            merge: merges.get(merge).copied().unwrap_or_default(),
+            weights: *[Equal, Distance, Angle, Score]
+                .get(weights)
+                .unwrap_or(&Equal),
+            sampling: samplings.get(sampling).copied().unwrap_or_default(),
+        }
+    }
 }
 
 /// What images say about the points of a cloud.
@@ -276,7 +273,7 @@ impl Transfer {
         for (k, &index) in view.indices.iter().enumerate() {
             let [u, v] = view.pixels[k].map(f64::from);
             let is_given = match self.how.sampling {
-                Sampling::Nearest => raster.nearest(floor(u), floor(v), &mut row),
+                Sampling::Nearest => raster.at(u, v, &mut row),
                 Sampling::Bilinear => raster.between(u - 0.5, v - 0.5, &mut row)?,
             };
             if !is_given {
@@ -510,21 +507,18 @@ impl Observed {
         push(&mut self.indices, index)?;
         push(&mut self.weights, weight)?;
         match &mut self.rows {
-            Kept::Bytes(rows) => {
-                reserve(rows, row.len())?;
-                rows.extend(row.iter().map(|&value| value as u8));
-            }
-            Kept::Singles(rows) => {
-                reserve(rows, row.len())?;
-                rows.extend(row.iter().map(|&value| value as f32));
-            }
-            Kept::Doubles(rows) => {
-                reserve(rows, row.len())?;
-                rows.extend(row);
-            }
+            Kept::Bytes(rows) => extend(rows, row, |value| value as u8)?,
+            Kept::Singles(rows) => extend(rows, row, |value| value as f32)?,
+            Kept::Doubles(rows) => extend(rows, row, |value| value)?,
         }
         Ok(())
     }
+}
+
+fn extend<T>(rows: &mut Vec<T>, row: &[f64], to: impl Fn(f64) -> T) -> Result<(), OutOfMemory> {
+    reserve(rows, row.len())?;
+    rows.extend(row.iter().map(|&value| to(value)));
+    Ok(())
 }
 
 impl Kept {
@@ -534,67 +528,5 @@ impl Kept {
             Self::Singles(numbers) => numbers[at].into(),
             Self::Doubles(numbers) => numbers[at],
         }
-    }
-}
-
-impl Pixels<'_> {
-    fn len(&self) -> usize {
-        match self {
-            Self::Bytes(numbers) => numbers.len(),
-            Self::Singles(numbers) => numbers.len(),
-            Self::Doubles(numbers) => numbers.len(),
-        }
-    }
-}
-
-/// An image and its size.
-struct Raster<'a> {
-    image: &'a Image<'a>,
-    width: usize,
-    height: usize,
-}
-
-impl Raster<'_> {
-    /// The pixel at this column and row, or the nearest one of the image. Returns whether it has a value.
-    fn nearest(&self, column: f64, row: f64, into: &mut [f64]) -> bool {
-        // Conversions saturate: negative numbers become 0.
-        let x = (column as usize).min(self.width - 1);
-        let y = (row as usize).min(self.height - 1);
-        let at = (y * self.width + x) * into.len();
-        match self.image.pixels {
-            Pixels::Bytes(numbers) => {
-                let own = &numbers[at..at + into.len()];
-                let numbers = own.iter().map(|&byte| f64::from(byte));
-                (into.iter_mut().zip(numbers)).for_each(|(to, from)| *to = from);
-                !matches!(own, [_, _, _, 0])
-            }
-            Pixels::Singles(numbers) => {
-                let numbers = numbers[at..].iter().map(|&number| f64::from(number));
-                (into.iter_mut().zip(numbers)).for_each(|(to, from)| *to = from);
-                !into.iter().any(|x| x.is_nan())
-            }
-            Pixels::Doubles(numbers) => {
-                into.copy_from_slice(&numbers[at..at + into.len()]);
-                !into.iter().any(|x| x.is_nan())
-            }
-        }
-    }
-
-    /// Between four pixels, whose centers have whole coordinates here.
-    fn between(&self, x: f64, y: f64, into: &mut [f64]) -> Result<bool, Error> {
-        let (left, up) = (floor(x), floor(y));
-        let (right, down) = (x - left, y - up);
-        let mut sums: Vec<f64> = filled(into.len(), 0.0)?;
-        let mut total = 0.0;
-        for (i, j) in [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0)] {
-            let across = if i > 0.0 { right } else { 1.0 - right };
-            let weight = across * if j > 0.0 { down } else { 1.0 - down };
-            if weight > 0.0 && self.nearest(left + i, up + j, into) {
-                (sums.iter_mut().zip(&*into)).for_each(|(sum, value)| *sum += weight * value);
-                total += weight;
-            }
-        }
-        (into.iter_mut().zip(sums)).for_each(|(to, sum)| *to = sum / total);
-        Ok(total > 0.0)
     }
 }

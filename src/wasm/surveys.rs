@@ -16,7 +16,7 @@ use crate::wasm::transfer::{
     Coordinates, Numbers, copy_in_integers, copy_out, groups, numbers, singles,
 };
 use crate::wasm::views::read;
-use crate::{Choice, Error, Image, Merge, Placing, Sampling, TransferOptions, Weights};
+use crate::{Choice, Error, Image, Placing, TransferOptions};
 
 #[wasm_bindgen]
 extern "C" {
@@ -43,24 +43,7 @@ pub fn create_transfer(
     weights: u32,
     sampling: u32,
 ) -> Result<JsValue, JsValue> {
-    let how = TransferOptions {
-        merge: match merge {
-            1 => Merge::Median,
-            2 => Merge::Vote,
-            3 => Merge::Best,
-            _ => Merge::Mean,
-        },
-        weights: match weights {
-            1 => Weights::Distance,
-            2 => Weights::Angle,
-            3 => Weights::Score,
-            _ => Weights::Equal,
-        },
-        sampling: match sampling {
-            1 => Sampling::Bilinear,
-            _ => Sampling::Nearest,
-        },
-    };
+    let how = TransferOptions::of(merge as usize, weights as usize, sampling as usize);
     let made = Transfer::new(length as usize, &how);
     created(made.map(|transfer| Cloud::Transfer(Box::new(transfer))))
 }
