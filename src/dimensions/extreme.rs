@@ -16,8 +16,7 @@ use alloc::vec::Vec;
 
 use crate::base::allocation::{OutOfMemory, fill, filled, push, reserve};
 use crate::base::beat;
-use crate::dimensions::flat::Frame;
-use crate::dimensions::plane::{Plane, subtract};
+use crate::dimensions::flat::{Frame, Plane, subtract};
 use crate::dimensions::residues::Exact;
 
 /// A share of a vector in a basis that counts as 0 in rounded steps.

@@ -2,16 +2,13 @@
 
 mod extreme;
 mod flat;
-mod plane;
 mod residues;
 mod rows;
-mod subspace;
 
 use alloc::vec::Vec;
 
 use self::flat::Frame;
-use self::rows::{Rows, squared};
-use self::subspace::in_space;
+use self::rows::{Rows, in_space, squared};
 use crate::answers::visibility::{Visibility, marked_indices};
 use crate::base::allocation::{filled, with_capacity};
 use crate::base::error::{Error, in_range};

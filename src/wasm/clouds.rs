@@ -12,8 +12,7 @@ use crate::answers::memory::ViewMemory;
 use crate::answers::transfer::Transfer;
 use crate::base::FULL;
 use crate::base::allocation::push;
-use crate::wasm::failure::disposed;
-use crate::wasm::objects::numbered;
+use crate::wasm::answer::{disposed, numbered};
 use crate::wasm::options::ViewOptions;
 use crate::wasm::transfer::copy_in_bytes;
 #[cfg(feature = "wasm")]

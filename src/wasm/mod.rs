@@ -9,27 +9,17 @@
 //! its radius, and changes.
 
 mod answer;
-#[cfg(feature = "wasm")]
-mod beats;
 mod clouds;
-mod failure;
 #[cfg(feature = "wasm")]
 mod formulas;
 #[cfg(feature = "wasm")]
 mod higher;
-#[cfg(feature = "wasm")]
-mod horizons;
-#[cfg(feature = "wasm")]
-mod maps;
-#[cfg(feature = "wasm")]
-mod merges;
-mod objects;
 mod operator;
 mod options;
 #[cfg(feature = "wasm")]
 mod outputs;
 #[cfg(feature = "wasm")]
-mod panoramas;
+mod parts;
 #[cfg(feature = "wasm")]
 mod surveys;
 mod transfer;

@@ -1,15 +1,14 @@
-//! Meshes, light and the thickness of scans. All are computed from views.
+//! Meshes, light, the thickness of scans, maps of directions and panoramas. All are computed from views.
 
 use js_sys::{Float32Array, Float64Array, Uint32Array};
 use wasm_bindgen::prelude::*;
 
 use crate::base::allocation::with_capacity;
-use crate::wasm::answer::answer;
-use crate::wasm::clouds::with_view;
-use crate::wasm::objects::{list, object};
+use crate::wasm::answer::{answer, list, object};
+use crate::wasm::clouds::{with_memory, with_view};
 use crate::wasm::options::ViewOptions;
-use crate::wasm::transfer::{copy_in_integers, corners, triples};
-use crate::{Lighting, Station};
+use crate::wasm::transfer::{copy_in_integers, copy_out_singles, corners, triples};
+use crate::{Lighting, MapOptions, PanoramaOptions, Station};
 
 /// The points that are visible from (x, y, z), and the triangles between them.
 #[wasm_bindgen(unchecked_return_type = "Answer")]
@@ -84,4 +83,69 @@ pub fn calibrate(
         ("shown", &found.shown.into()),
         ("isLow", &found.is_low().into()),
     ]))
+}
+
+/// A map of directions around (x, y, z). `map` holds the number of points, a direction
+/// and its angle, and an origin. A number of 0 stands for the default, an angle of 0 stands for all directions, and an origin of infinity
+/// for none.
+#[wasm_bindgen(js_name = visibilityMap, unchecked_return_type = "MapAnswer")]
+pub fn visibility_map(
+    handle: u32,
+    x: f64,
+    y: f64,
+    z: f64,
+    options: &ViewOptions,
+    map: &Float64Array,
+) -> Result<JsValue, JsValue> {
+    let view = options.read();
+    let mut numbers = [0.0; 8];
+    map.copy_to(&mut numbers);
+    let [points, a, b, c, angle, origin @ ..] = numbers;
+    with_memory(handle, [x, y, z], options, &view, |cloud, memory| {
+        let choices = MapOptions {
+            points: match points {
+                0.0 => MapOptions::default().points,
+                points => points as usize,
+            },
+            towards: (angle != 0.0).then_some(([a, b, c], angle)),
+            origin: Some(origin).filter(|origin| origin[0] != f64::INFINITY),
+        };
+        let made = cloud.visibility_map_with(memory, [x, y, z], &view, &choices)?;
+        Ok(object(&[
+            ("data", &copy_out_singles(made.data())?.into()),
+            ("center", &list(&cloud.middle())),
+            ("origin", &list(&made.origin())),
+            ("numbers", &list(&made.numbers().map(f64::from))),
+        ]))
+    })
+}
+
+/// Writes what stands in each direction into `ranges` and `indices`, which have a place for each pixel, and
+/// the sky view factor and the solid angle into `areas`. `asked` holds x, y, z of the viewpoint, the width,
+/// the height, and x, y, z of the direction up.
+#[wasm_bindgen]
+pub fn panorama(
+    handle: u32,
+    asked: &Float64Array,
+    options: &ViewOptions,
+    ranges: &Float32Array,
+    indices: &Uint32Array,
+    areas: &Float64Array,
+) -> Result<(), JsValue> {
+    let view = options.read();
+    let mut numbers = [0.0; 8];
+    asked.copy_to(&mut numbers);
+    let [x, y, z, width, height, up @ ..] = numbers;
+    let choices = PanoramaOptions {
+        width: width as usize,
+        height: height as usize,
+        up,
+    };
+    let made = with_memory(handle, [x, y, z], options, &view, |cloud, memory| {
+        cloud.panorama_with(memory, [x, y, z], &view, &choices)
+    })?;
+    ranges.copy_from(&made.ranges);
+    indices.copy_from(&made.indices);
+    areas.copy_from(&[made.sky_view_factor, made.solid_angle]);
+    Ok(())
 }

@@ -10,8 +10,8 @@ use wasm_bindgen::prelude::*;
 
 use crate::answers::transfer::{Shown, Transfer};
 use crate::base::allocation::with_capacity;
+use crate::wasm::answer::{list, object};
 use crate::wasm::clouds::{Cloud, Placed, change_any, created};
-use crate::wasm::objects::{list, object};
 use crate::wasm::transfer::{
     Coordinates, Numbers, copy_in_integers, copy_out, groups, numbers, singles,
 };

@@ -1,7 +1,7 @@
 import { HprError, type HprErrorCode } from "../base/errors.js";
 
 /**
- * A refusal as the wasm throws it (src/wasm/failure.rs). The numbers are written here, because that would make the wasm
+ * A refusal as the wasm throws it (src/wasm/answer.rs). The numbers are written here, because that would make the wasm
  * larger.
  */
 interface Failure {

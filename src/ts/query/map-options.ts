@@ -9,7 +9,7 @@ export type { Cone, VisibilityMapOptions };
 
 /** How a map is made, as the core reads it. */
 export interface MapNumbers {
-  /** The choices in the order of src/wasm/maps.rs. */
+  /** The choices in the order of src/wasm/outputs.rs. */
   map: Float64Array<ArrayBuffer>;
   /** The camera of `towards`, of which the core makes the cone. */
   camera?: CameraNumbers | undefined;

@@ -1,4 +1,4 @@
-//! Horizons. They are kept among the clouds, and grow and are freed as clouds are.
+//! Clouds in parts: horizons, which are kept among the clouds, grow and are freed as clouds are, and merged answers.
 
 use alloc::boxed::Box;
 
@@ -6,9 +6,10 @@ use js_sys::{Float64Array, Uint32Array};
 use wasm_bindgen::prelude::*;
 
 use crate::Horizon;
+use crate::answers::merge::{Ids, merge};
 use crate::wasm::clouds::{Cloud, created, with_horizon};
 use crate::wasm::options::ViewOptions;
-use crate::wasm::transfer::{Coordinates, copy_out, copy_out_doubles, points};
+use crate::wasm::transfer::{Coordinates, copy_in_integers, copy_out, copy_out_doubles, points};
 
 /// A horizon without points, seen from (x, y, z).
 #[wasm_bindgen(js_name = createHorizon, unchecked_return_type = "CloudInfo")]
@@ -40,4 +41,21 @@ pub fn horizon_points(handle: u32) -> Result<Float64Array, JsValue> {
     with_horizon(handle, |horizon| {
         copy_out_doubles(horizon.visible()?.as_flattened())
     })
+}
+
+/// The ids of the visible points among positions; each position has one id.
+#[wasm_bindgen(js_name = mergeVisible)]
+pub fn merge_visible(
+    positions: &Coordinates,
+    ids: &Uint32Array,
+    x: f64,
+    y: f64,
+    z: f64,
+    options: &ViewOptions,
+) -> Result<Uint32Array, JsValue> {
+    let view = options.read();
+    let (positions, ids) = (points(positions)?, copy_in_integers(ids)?);
+    let part = |_| (positions.as_given(), Ids::Short(&ids));
+    let seen = merge(1, &part, [x, y, z], &view)?;
+    Ok(copy_out(&seen)?)
 }
