@@ -1,5 +1,4 @@
 // The exports of every entry. The entries differ only in the source of the wasm.
-export type { ChosenRadius } from "./query/answers.js";
 export { hiddenPointRemoval, PointCloud } from "./cloud/cloud.js";
 export type { InitInput, SyncInitInput, WasmModule } from "./instance/compile.js";
 export { type Addresses, configure } from "./instance/configure.js";
@@ -11,7 +10,13 @@ export { type MergeOptions, mergeVisible, type VisiblePart } from "./cloud/merge
 export type { PointCloudOptions } from "./query/options.js";
 export type { Positions, Viewpoint } from "./query/positions.js";
 export type { NumberArray } from "./base/typed-arrays.js";
-export type { IlluminationOptions, ReconstructionOptions } from "./query/queries.js";
+export type {
+  IlluminationOptions,
+  PanoramaOptions,
+  ReconstructionOptions,
+  VisibilityMapOptions,
+} from "./query/option-rows.js";
+export type { ChosenRadius, Panorama } from "./query/queries.js";
 export type { ImageCamera, CameraModel, Intrinsics, Pose } from "./query/camera.js";
 export {
   cameraFromPose,
@@ -23,10 +28,8 @@ export {
 export type { Calibration, Station } from "./query/calibration.js";
 export type { ViewpointOrCamera } from "./query/seats.js";
 export { orientNormals } from "./query/orient-normals.js";
-export type { Cone, VisibilityMapOptions } from "./query/map-options.js";
-export type { Panorama, PanoramaOptions } from "./query/panorama-options.js";
 export type { CoverageOptions, Placement, PlacementOptions, SeenBy } from "./query/surveys.js";
-export type { SurfaceKind, Within, Without } from "./query/option-types.js";
+export type { Cone, SurfaceKind, Within, Without } from "./query/option-types.js";
 export type { Inversion, OneWay, RadiusRule, ResolvedInversion, VisibilityOptions } from "./query/view-options.js";
 export { initSync } from "./instance/init-sync.js";
 export { VisibilityMap, type VisibilityMapUniforms } from "./cloud/visibility-map.js";

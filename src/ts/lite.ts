@@ -8,7 +8,7 @@ import { type Binary, compiledOnce, compileOwn, type InitInput, type SyncInitInp
 import { type Engine, required } from "./instance/engine.js";
 import { initFrom, startSync } from "./instance/start.js";
 import * as glue from "./lite/hpr_bg.js";
-import type { ChosenRadius } from "./query/answers.js";
+import type { ChosenRadius } from "./query/queries.js";
 import { VIEW_ROWS } from "./query/option-rows.js";
 import {
   type Checked,
@@ -33,7 +33,7 @@ import {
 export { HprError, type HprErrorCode } from "./base/errors.js";
 export type { NumberArray } from "./base/typed-arrays.js";
 export type { InitInput, SyncInitInput, WasmModule } from "./instance/compile.js";
-export type { ChosenRadius } from "./query/answers.js";
+export type { ChosenRadius } from "./query/queries.js";
 export type { Positions, Viewpoint } from "./query/positions.js";
 export type { Inversion } from "./query/view-options.js";
 

@@ -1,10 +1,10 @@
-export type { ChosenRadius } from "./query/answers.js";
+export type { ChosenRadius } from "./query/queries.js";
 export { type Addresses, configure } from "./instance/configure.js";
 export { HprError, type HprErrorCode } from "./base/errors.js";
 export type { PointCloudOptions } from "./query/options.js";
 export type { Positions } from "./query/positions.js";
 export type { NumberArray } from "./base/typed-arrays.js";
-export type { IlluminationOptions, ReconstructionOptions } from "./query/queries.js";
+export type { IlluminationOptions, ReconstructionOptions } from "./query/option-rows.js";
 export type { Inversion, RadiusRule, ResolvedInversion, VisibilityOptions } from "./query/view-options.js";
 export type { Reconstruction, ScoredIf, Visibility } from "./cloud/visibility.js";
 export type { AnswerKind, FollowedOptions, FollowOptions } from "./follow/options.js";

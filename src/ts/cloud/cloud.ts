@@ -1,7 +1,7 @@
 /// <reference lib="esnext.disposable" preserve="true" />
-import type { ChosenRadius, Found } from "../query/answers.js";
+import type { ChosenRadius, Found, Panorama } from "../query/queries.js";
 import { HprError } from "../base/errors.js";
-import { CoreCloud } from "./core-cloud.js";
+import { CoreCloud } from "./held-cloud.js";
 import { addDisposeSymbol } from "../base/dispose-symbol.js";
 import { addTag } from "../base/tag.js";
 import { type MethodName, readQuestion } from "./methods.js";
@@ -17,9 +17,12 @@ import {
 } from "../query/options.js";
 import type { Positions, Viewpoint } from "../query/positions.js";
 import type { ImageCamera } from "../query/camera.js";
-import type { Panorama, PanoramaOptions } from "../query/panorama-options.js";
-import type { VisibilityMapOptions } from "../query/map-options.js";
-import type { IlluminationOptions, ReconstructionOptions } from "../query/queries.js";
+import type {
+  IlluminationOptions,
+  PanoramaOptions,
+  ReconstructionOptions,
+  VisibilityMapOptions,
+} from "../query/option-rows.js";
 import type { Calibration, Station } from "../query/calibration.js";
 import type { SurfaceKind } from "../query/option-types.js";
 import type { ViewpointOrCamera } from "../query/seats.js";

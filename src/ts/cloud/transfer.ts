@@ -1,4 +1,4 @@
-import type { Found, Photographed } from "../query/answers.js";
+import type { Found, Photographed } from "../query/queries.js";
 import { describe, HprError } from "../base/errors.js";
 import { allocating } from "../base/memory.js";
 import { isNumberArray, type NumberArray, plainNumbers, typedArrayType } from "../base/typed-arrays.js";

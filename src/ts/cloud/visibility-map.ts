@@ -1,6 +1,6 @@
 import { addTag } from "../base/tag.js";
 import { HprError } from "../base/errors.js";
-import type { Answers } from "../query/answers.js";
+import type { Answers } from "../query/queries.js";
 import { type Positions, readPositions } from "../query/positions.js";
 import { GLSL, WGSL } from "./visibility-shader.js";
 

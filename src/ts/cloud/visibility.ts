@@ -1,4 +1,4 @@
-import type { Answers, ChosenRadius, Found } from "../query/answers.js";
+import type { Answers, ChosenRadius, Found } from "../query/queries.js";
 import { HprError } from "../base/errors.js";
 import { addTag } from "../base/tag.js";
 import { allocating } from "../base/memory.js";

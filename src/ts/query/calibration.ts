@@ -1,11 +1,10 @@
 import { describe, HprError } from "../base/errors.js";
 import { allocating } from "../base/memory.js";
 import { plainView, typedArrayType } from "../base/typed-arrays.js";
-import type { Answers } from "./answers.js";
+import type { Answers, Query } from "./queries.js";
 import { VIEW_ROWS } from "./option-rows.js";
 import { ownOf, requireSpace, type Rows } from "./options.js";
 import { readIndices, readViewpoint, type Viewpoint } from "./positions.js";
-import type { Query } from "./queries.js";
 import { refuseScores, VIEW_OPTIONS, viewSettings, type VisibilityOptions } from "./view-options.js";
 
 /** Where a scanner stood, and the points that it measured, by exactly one of `indices` and `mask`. */

@@ -1,27 +1,7 @@
-import { describe, HprError } from "../base/errors.js";
-import { allocating } from "../base/memory.js";
-import { readCamera } from "./camera.js";
-import { mapNumbers, type MapNumbers } from "./map-options.js";
-import type {
-  IlluminationOptions,
-  LIGHT_ROWS,
-  MAP_ROWS,
-  MESH_ROWS,
-  PANORAMA_ROWS,
-  PanoramaOptions,
-  ReconstructionOptions,
-  VIEW_ROWS,
-  VisibilityMapOptions,
-  VisibilityOptions,
-} from "./option-rows.js";
-import { type Checked, type CloudSettings, requireLow, requireSpace } from "./options.js";
-import { type PanoramaSize, panoramaSize } from "./panorama-options.js";
-import { packed, readPositions, readViewpoint, readViewpoints } from "./positions.js";
-import { isCameraSeat, readSeats, type Seat } from "./seats.js";
-import { plainView, typedArrayType } from "../base/typed-arrays.js";
-import { hasScores, refuseScores, ruleSettings, type ViewSettings, viewSettings } from "./view-options.js";
-
-export type { IlluminationOptions, ReconstructionOptions };
+import type { CameraNumbers } from "./camera.js";
+import type { ResolvedInversion, SurfaceKind } from "./option-types.js";
+import type { Seat } from "./seats.js";
+import type { ViewSettings } from "./view-options.js";
 
 /**
  * The questions to a cloud, by kind. Their arguments are read, copied and checked for type. Their
@@ -29,8 +9,15 @@ export type { IlluminationOptions, ReconstructionOptions };
  */
 export interface Questions {
   visibleFrom: { viewpoint: number[]; settings: ViewSettings };
-  visibilityMap: MapNumbers & { viewpoint: [number, number, number]; settings: ViewSettings };
-  panorama: PanoramaSize & { viewpoint: number[]; settings: ViewSettings };
+  visibilityMap: {
+    viewpoint: [number, number, number];
+    settings: ViewSettings;
+    /** The choices in the order of src/wasm/outputs.rs. */
+    map: Float64Array<ArrayBuffer>;
+    /** The camera of `towards`, of which the core makes the cone. */
+    camera?: CameraNumbers | undefined;
+  };
+  panorama: { viewpoint: number[]; settings: ViewSettings; width: number; height: number; up: number[] };
   visibleFromDirection: { direction: number[]; settings: ViewSettings };
   /** Asks for points visible from at least `k` of the viewpoints. These are stored one after another. */
   visibleFromSeveral: { viewpoints: Float64Array<ArrayBuffer>; k: number; settings: ViewSettings };
@@ -71,135 +58,78 @@ export type QueryKind = keyof Questions;
 /** `argument`: which of several viewpoints or cameras it is about, for errors. */
 export type Query<K extends QueryKind = QueryKind> = { [P in K]: { kind: P; argument?: string } & Questions[P] }[K];
 
-// In the functions below, `given` holds options that their rows have checked.
-
-type View = Checked<VisibilityOptions, typeof VIEW_ROWS>;
-
-export function viewQuery(dimension: number, viewpoint: unknown, given: View): Query<"visibleFrom"> {
-  const position = readViewpoint(viewpoint, dimension);
-  return { kind: "visibleFrom", viewpoint: position, settings: viewSettings(given, dimension) };
+/** How a radius was chosen. */
+export interface ChosenRadius {
+  /**
+   * R, the radius of the flipping sphere, in the cloud's units. It is 0 if no point is away from
+   * the viewpoint. With an inversion by power, this is its unit S. With an exponential inversion,
+   * this is 0.
+   */
+  readonly radius: number;
+  /** log₁₀(R ÷ farthest distance), the paper's parameter. It is 0 if there is no R. */
+  readonly exponent: number;
+  /** The number of hulls computed to choose R, without the final hull. */
+  readonly evaluations: number;
 }
 
-export function cameraQuery(dimension: number, camera: unknown, given: View): Query<"visibleFromCamera"> {
-  requireSpace("visibleFromCamera", dimension);
-  const numbers = readCamera(camera);
-  return { kind: "visibleFromCamera", camera: numbers, settings: viewSettings(given, dimension) };
+/** The visible points, with the length of the cloud. */
+export interface Found extends ChosenRadius {
+  indices: Uint32Array<ArrayBuffer>;
+  inversion: ResolvedInversion;
+  exact: boolean;
+  length: number;
+  /** Undefined unless the option `scores` asked for them. */
+  scores?: Float32Array<ArrayBuffer>;
+  /** Whether the pose of a camera was probably given the wrong way round. */
+  inverted?: boolean;
 }
 
-export function seesQuery(
-  { dimension, stride }: CloudSettings,
-  viewpoint: unknown,
-  positions: unknown,
-  given: View,
-): Query<"sees"> {
-  requireLow("sees", dimension);
-  const place = readViewpoint(viewpoint, dimension);
-  const settings = viewSettings(given, dimension);
-  const numbers = packed(readPositions(positions, stride), stride, dimension);
-  const own = allocating(`${numbers.length} coordinates`, () => Float64Array.from(numbers));
-  return { kind: "sees", viewpoint: place, positions: own, settings };
+/** The visible points in an image. */
+export interface Photographed extends Found {
+  pixels: Float32Array<ArrayBuffer>;
+  depths: Float32Array<ArrayBuffer>;
+  /** The directions of length 1 from the points to the camera, if the query asked for them. */
+  towards?: Float32Array<ArrayBuffer>;
 }
 
-export function mapQuery(
-  dimension: number,
-  viewpoint: unknown,
-  given: Checked<VisibilityMapOptions, typeof MAP_ROWS>,
-): Query<"visibilityMap"> {
-  requireSpace("visibilityMap", dimension);
-  const place = readViewpoint(viewpoint, 3) as [number, number, number];
-  return { kind: "visibilityMap", viewpoint: place, settings: viewSettings(given, dimension), ...mapNumbers(given) };
-}
-
-export function panoramaQuery(
-  dimension: number,
-  viewpoint: unknown,
-  given: Checked<PanoramaOptions, typeof PANORAMA_ROWS>,
-): Query<"panorama"> {
-  requireSpace("panorama", dimension);
-  const place = readViewpoint(viewpoint, 3);
-  return { kind: "panorama", viewpoint: place, settings: viewSettings(given, dimension), ...panoramaSize(given) };
-}
-
-export function directionQuery(dimension: number, direction: unknown, given: View): Query<"visibleFromDirection"> {
-  requireSpace("visibleFromDirection", dimension);
-  const ahead = readViewpoint(direction, 3, "direction");
-  return { kind: "visibleFromDirection", direction: ahead, settings: viewSettings(given, dimension) };
-}
-
-/** Asks for points visible from at least `k` of the viewpoints. Without `k`, from at least one. */
-export function severalQuery(
-  dimension: number,
-  viewpoints: unknown,
-  given: View,
-  least?: { k: unknown },
-): Query<"visibleFromSeveral"> | Query<"visibleFromSeats"> {
-  const seats = readSeats(viewpoints, dimension, "viewpoints");
-  let k = 1;
-  if (least !== undefined) {
-    const count = seats.length;
-    const isCount = Number.isInteger(least.k) && (least.k as number) >= 1 && (least.k as number) <= count;
-    if (!isCount) {
-      throw new HprError(
-        "option",
-        `k must be an integer from 1 to the number of viewpoints, ${count}, got ${describe(least.k)}`,
-      );
-    }
-    k = least.k as number;
-  }
-  const settings = viewSettings(given, dimension);
-  if (seats.some(isCameraSeat)) {
-    refuseScores({ scores: hasScores(settings) }, "several cameras");
-    return { kind: "visibleFromSeats", seats, k, settings };
-  }
-  const positions = allocating(`${seats.length} viewpoints`, () =>
-    Float64Array.from(seats.flatMap((seat) => [...seat])),
-  );
-  return { kind: "visibleFromSeveral", viewpoints: positions, k, settings };
-}
-
-export function radiusQuery(dimension: number, viewpoint: unknown, rule: unknown): Query<"autoRadius"> {
-  return { kind: "autoRadius", viewpoint: readViewpoint(viewpoint, dimension), settings: ruleSettings(rule) };
-}
-
-export function reconstructionQuery(
-  dimension: number,
-  viewpoint: unknown,
-  given: Checked<ReconstructionOptions, typeof MESH_ROWS>,
-): Query<"reconstruct"> {
-  requireSpace("reconstruct", dimension);
-  const position = readViewpoint(viewpoint, dimension);
-  return { kind: "reconstruct", viewpoint: position, settings: viewSettings(given, dimension), maxEdge: given.maxEdge };
-}
-
-export function illuminationQuery(
-  dimension: number,
-  lights: unknown,
-  given: Checked<IlluminationOptions, typeof LIGHT_ROWS>,
-): Query<"illuminate"> {
-  requireSpace("illuminate", dimension);
-  const positions = readViewpoints(lights, dimension, "lights");
-  return {
-    kind: "illuminate",
-    lights: positions,
-    settings: viewSettings(given, dimension),
-    triangles: readTriangles(given.triangles),
-    smoothing: given.smoothing ?? 1,
-    ambient: given.ambient ?? 0,
+/** The answers, by kind of query. */
+export interface Answers {
+  visibleFrom: Found;
+  visibleFromDirection: Found;
+  visibleFromSeveral: Found;
+  visibleFromSeats: Found;
+  visibleFromCamera: Photographed;
+  /** One byte for each position. */
+  sees: { seen: Uint8Array<ArrayBuffer> };
+  autoRadius: ChosenRadius;
+  noise: { noise: number };
+  calibrate: { thickness: number; recall: number[]; shown: number; isLow: boolean };
+  surface: { surface: SurfaceKind };
+  visibilityMap: {
+    data: Float32Array<ArrayBuffer>;
+    viewpoint: [number, number, number];
+    center: [number, number, number];
+    origin: [number, number, number];
+    numbers: [number, number, number, number];
   };
+  panorama: {
+    ranges: Float32Array<ArrayBuffer>;
+    indices: Uint32Array<ArrayBuffer>;
+    skyViewFactor: number;
+    solidAngle: number;
+  };
+  reconstruct: Found & { triangles: Uint32Array<ArrayBuffer> };
+  illuminate: { brightness: Float32Array<ArrayBuffer> };
 }
 
-/** A copy of the triangles. Their indices are checked later, when the cloud is asked. */
-function readTriangles(triangles: unknown): Uint32Array<ArrayBuffer> | undefined {
-  if (triangles === undefined) {
-    return undefined;
-  }
-  const corners =
-    typedArrayType(triangles) === "Uint32Array" ? plainView(triangles as Uint32Array, Uint32Array) : undefined;
-  if (corners === undefined) {
-    throw new HprError("option", `triangles must be a Uint32Array, not transferred away, got ${describe(triangles)}`);
-  }
-  if (corners.length % 3 !== 0) {
-    throw new HprError("option", `triangles must be three indices each, got ${corners.length}`);
-  }
-  return allocating(`${corners.length / 3} triangles`, () => corners.slice());
+/** What stands in each direction around a viewpoint, row after row from up to down. */
+export interface Panorama {
+  /** The distance to the surface in each direction, in the cloud's units; `Infinity` for the sky. */
+  ranges: Float32Array;
+  /** The visible point that is nearest by angle; 2³² − 1 for the sky. */
+  indices: Uint32Array;
+  /** The share of the sky in the upper half of the sphere, weighted by the cosine from up: 0 to 1. */
+  skyViewFactor: number;
+  /** How much of the sphere is surface, in steradians. */
+  solidAngle: number;
 }

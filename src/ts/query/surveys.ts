@@ -1,4 +1,4 @@
-import type { Found, Photographed } from "./answers.js";
+import type { Found, Photographed, Query } from "./queries.js";
 import { describe, HprError } from "../base/errors.js";
 import { allocating } from "../base/memory.js";
 import { isNumberArray, plainNumbers } from "../base/typed-arrays.js";
@@ -8,7 +8,6 @@ import { INVERTED } from "./camera.js";
 import { type CoverageOptions, MANY_ROWS, PLACEMENT_ROWS, type PlacementOptions } from "./option-rows.js";
 import { type Checked, requireSpace, type Rows } from "./options.js";
 import { MAX_LENGTH } from "./positions.js";
-import type { Query } from "./queries.js";
 import { isCameraSeat, readCameras, readSeats, type Seat } from "./seats.js";
 import { hasScores, refuseScores, type ViewSettings, viewSettings } from "./view-options.js";
 

@@ -1,5 +1,5 @@
 /// <reference lib="esnext.disposable" preserve="true" />
-import type { ChosenRadius } from "../query/answers.js";
+import type { ChosenRadius, Panorama } from "../query/queries.js";
 import { addDisposeSymbol } from "../base/dispose-symbol.js";
 import { addTag } from "../base/tag.js";
 import { HprError } from "../base/errors.js";
@@ -23,7 +23,7 @@ import type { Place } from "../query/place.js";
 import { isFloatArray, type Positions, readIndices, readPositions, type Viewpoint } from "../query/positions.js";
 import { surveyed, type SurveyName, surveyQuestion, type SurveyQuestion, SURVEYS } from "../query/surveys.js";
 import type { SurfaceKind } from "../query/option-types.js";
-import type { Panorama, PanoramaOptions } from "../query/panorama-options.js";
+import type { PanoramaOptions } from "../query/option-rows.js";
 import type { RadiusRule, VisibilityOptions } from "../query/view-options.js";
 import type { PointCloud } from "../cloud/cloud.js";
 import { METHODS, type MethodName, readQuestion } from "../cloud/methods.js";

@@ -1,7 +1,6 @@
-import type { Answers } from "../query/answers.js";
+import type { Answers, Query } from "../query/queries.js";
 import { HprError, type HprErrorCode } from "../base/errors.js";
 import type { CloudSettings, CloudSize } from "../query/options.js";
-import type { Query } from "../query/queries.js";
 import type { SurveyTask } from "../query/surveys.js";
 
 /**

@@ -1,6 +1,5 @@
-import type { Answers } from "../query/answers.js";
+import type { Answers, Query, QueryKind } from "../query/queries.js";
 import { asError, HprError } from "../base/errors.js";
-import type { Query, QueryKind } from "../query/queries.js";
 import { abortError, reasonOf, whenAborted } from "./abort.js";
 import { isProgress, READY, type Replies, type Reply, type Request } from "./protocol.js";
 import { Team } from "./team.js";

@@ -1,4 +1,4 @@
-import { CoreCloud } from "../cloud/core-cloud.js";
+import { CoreCloud } from "../cloud/held-cloud.js";
 import { initSync } from "../instance/init-sync.js";
 import { requireInstance } from "../instance/instance.js";
 import { importNodeModule } from "../base/node.js";
