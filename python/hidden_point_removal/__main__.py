@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import argparse
-import inspect
 import json
 import re
 import sys
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, NoReturn
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,33 +16,61 @@ from numpy.typing import NDArray
 from . import HprError, PointCloud, __version__
 from .tiles import KINDS, chunks, visible_from_tiles
 
+# Flags, from src/options.json.
+FLAGS = [
+    ("radius", "R", "R of the flipping sphere in the cloud's units, or how R is chosen: auto (the default), opposite (the paper's rule, about 40 hulls)"),
+    ("exponent", "E", "R = farthest distance · 10^exponent, instead of radius; at least 0"),
+    ("inversion", "I", "spherical (the default), power:G (above 1, at most 16), exponential:C or exponential:auto"),
+    ("looks", "N", "2 or 3 looks: truer answers than one flip, about 3 times the work; 0 is one flip. The default is 3, and 0 with one of the three options above"),
+    ("thickness", "T", "with looks: how far behind the surface before it a point may lie and still be seen; auto (the default): by the cloud's noise"),
+    ("surface", "S", "with looks: what the cloud is, if cloud.surface (auto, the default) finds it wrongly: clean, noisy, layered"),
+    ("within", "D", "a distance, or X,Y,Z,X,Y,Z, two corners of a box: only these points take part"),
+]
+# End of flags.
+
+
+class Parser(argparse.ArgumentParser):
+    def error(self, message: str, status: int = 2) -> NoReturn:
+        # Names of files may hold characters that would command a terminal.
+        self.exit(status, "hidden_point_removal: " + "".join(letter if letter.isprintable() else "?" for letter in message) + "\n")
+
 
 def main(words: Sequence[str] | None = None) -> None:
-    asks = PointCloud.visible_from
-    options = [one.name for one in inspect.signature(asks).parameters.values() if one.kind is one.KEYWORD_ONLY]
-    about = dict(re.findall(r"^(\w+): (.+(?:\n    .+)*)", inspect.getdoc(asks) or "", re.MULTILINE))
-    parser = argparse.ArgumentParser(prog="python -m hidden_point_removal", description=__doc__)
-    parser.add_argument("files", nargs="+", type=Path, metavar="FILE", help=f"{', '.join(KINDS)}; the points of several are numbered one after another")
+    parser = Parser(prog="python -m hidden_point_removal", description=__doc__)
+    parser.add_argument("files", nargs="+", type=Path, metavar="FILE",
+                        help=f"{', '.join(KINDS)}; the points of several are numbered one after another, and one flip answers")  # fmt: skip
     parser.add_argument("--from", dest="eyes", action="append", required=True, type=_place, metavar="X,Y,Z",
-                        help="a viewpoint, in the units of the file; may be given again; --from=-1,2,3 if it begins with a minus")  # fmt: skip
-    parser.add_argument("-o", "--output", type=Path, help="a .npy or .txt file, for the indices of the points that some viewpoint sees")
+                        help="a viewpoint, in the units of the file; may be given again")  # fmt: skip
+    parser.add_argument("-o", "--output", type=Path, metavar="OUT", help="a .npy or .txt file, for the indices of the points that some viewpoint sees")
+    for name, value, about in FLAGS:
+        parser.add_argument(f"--{name}", type=READERS.get(name, _value), metavar=value, help=about.replace("%", "%%"))
+    parser.add_argument("--threads", type=int, metavar="N", help="from 1 to 256; they change no answer. Default: all cores from 200,000 points on, else 1")
     parser.add_argument("--version", action="version", version=__version__)
-    for name in options:
-        parser.add_argument(f"--{name}", type=_value, help=" ".join(about[name].split()).replace("%", "%%"))
-    given = vars(parser.parse_args(words))
+    given = vars(parser.parse_args(_joined(sys.argv[1:] if words is None else words)))
+    files, eyes, output = (given.pop(name) for name in ("files", "eyes", "output"))
+    options = {name: value for name, value in given.items() if value is not None}
+    if len(files) == 1 and not options.keys() & {"radius", "exponent", "inversion"}:
+        options.setdefault("looks", 3)
+    if options.get("looks") == 0:
+        del options["looks"]
+    if output is not None and output.suffix not in (".npy", ".txt"):
+        parser.error(f"{output}: the output must be a .npy or .txt file")
+    if output is not None and output.resolve() in [file.resolve() for file in files]:
+        parser.error(f"{output}: the output must not be an input")
     try:
-        _run(given, {name: given[name] for name in options if given[name] is not None})
+        # What is wrong is refused before a file is read.
+        PointCloud([[0, 0, 0]]).visible_from([0, 0, 0], **options)
+    except HprError as problem:
+        parser.error(f"--{problem}")
+    try:
+        _run(files, eyes, output, options)
     except (HprError, OSError, ImportError) as problem:
-        # Names of files may hold characters that would command a terminal.
-        sys.exit("hidden_point_removal: " + "".join(letter if letter.isprintable() else "?" for letter in str(problem)))
+        parser.error(str(problem), 1)
     except KeyboardInterrupt:
         sys.exit(130)
 
 
-def _run(given: dict[str, Any], options: dict[str, Any]) -> None:
-    files, eyes, output = given["files"], given["eyes"], given["output"]
-    if output is not None and (output.suffix not in (".npy", ".txt") or output.resolve() in [file.resolve() for file in files]):
-        raise OSError(f"{output}: the output must be another .npy or .txt file")
+def _run(files: list[Path], eyes: list[list[float]], output: Path | None, options: dict[str, Any]) -> None:
     seen: list[NDArray[Any]]
     if len(files) == 1:
         cloud = PointCloud(files[0])
@@ -59,20 +86,51 @@ def _run(given: dict[str, Any], options: dict[str, Any]) -> None:
         np.save(output, every) if output.suffix == ".npy" else np.savetxt(output, every, "%d")
 
 
+def _joined(words: Sequence[str]) -> list[str]:
+    """argparse insists on `--from=-1,2,3`, so `--from -1,2,3` is changed to that."""
+    joined: list[str] = []
+    for word in words:
+        if joined and re.match(r"-[\d.]", word) and re.fullmatch("--[a-z]+", joined[-1]):
+            word = f"{joined.pop()}={word}"
+        joined.append(word)
+    return joined
+
+
+def _numbers(text: str, counts: tuple[int, ...], words: str) -> list[float]:
+    try:
+        numbers = [float(number) for number in text.split(",")]
+    except ValueError:
+        numbers = []
+    if len(numbers) not in counts:
+        raise argparse.ArgumentTypeError(f"{words} is needed, not {text}")
+    return numbers
+
+
 def _place(text: str) -> list[float]:
-    place = [float(number) for number in text.split(",")]
-    if len(place) != 3:
-        raise ValueError(text)
-    return place
+    return _numbers(text, (3,), "X,Y,Z")
+
+
+def _within(text: str) -> dict[str, Any]:
+    numbers = _numbers(text, (1, 6), "a distance, or X,Y,Z,X,Y,Z (two corners of a box)")
+    return {"distance": numbers[0]} if len(numbers) == 1 else {"box": [numbers[:3], numbers[3:]]}
+
+
+def _inversion(text: str) -> Any:
+    kind, _, parameter = text.partition(":")
+    if text != "spherical" and (kind not in ("power", "exponential") or not parameter):
+        raise argparse.ArgumentTypeError(f"spherical, power:G, exponential:C or exponential:auto is needed, not {text}")
+    return {kind: _value(parameter)} if parameter else text
 
 
 def _value(text: str) -> Any:
-    """A number, or {"power": 1.5}, or else a word."""
+    """A number, or else a word."""
     try:
         return json.loads(text)
     except ValueError:
         return text
 
+
+READERS = {"inversion": _inversion, "within": _within}
 
 if __name__ == "__main__":
     main()

@@ -70,6 +70,10 @@ class Visibility:
     def __len__(self) -> int:
         return self.count
 
+    def __call__(self, _: object) -> NDArray[np.bool_]:
+        # pandas asks an index that it can call for the rows.
+        return self.mask()
+
     def __getitem__(self, number: int) -> int:
         # So this is a sequence, which torch takes as an index.
         return int(self.indices[number])
@@ -77,14 +81,18 @@ class Visibility:
     def __getstate__(self) -> dict[str, Any]:
         return {**self.__dict__, "_cloud": None}
 
+    def _how(self) -> str:
+        used = {"radius": self.radius or None, **(self.inversion if isinstance(self.inversion, dict) else {})}
+        # Of looks, their number.
+        return "".join(f", {name}={len(value) if isinstance(value, list) else f'{value:.6g}'}" for name, value in used.items() if value)
+
     def __repr__(self) -> str:
-        return f"Visibility({self.count} of {self._length} points, radius={self.radius})"
+        return f"{type(self).__name__}({self.count} of {self._length} points{self._how()})"
 
     def _repr_html_(self) -> str:
         share = self.count / max(1, self._length)
         bar = f"<progress max='1' value='{share:.4f}'></progress>"
-        used = f"R = {self.radius:.6g}" if self.radius else f"{self.inversion}"
-        return f"<p>{bar} <b>{self.count:,}</b> of {self._length:,} points are visible ({share:.1%}). {used}</p>"
+        return f"<p>{bar} <b>{self.count:,}</b> of {self._length:,} points are visible ({share:.1%}){self._how()}</p>"
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -157,7 +165,8 @@ class SeenBy(NamedTuple):
         """The matrix of points and cameras: `scipy.sparse.csr_array`. `values` has one for each entry; default 1."""
         from scipy.sparse import csr_array
 
-        given = np.ones(len(self.cameras), np.int32) if values is None else np.asarray(values)
+        ones = np.ones(len(self.cameras), np.int32)
+        given = ones if values is None else array(values, "values", "biufc", "a list of numbers")
         if given.shape != self.cameras.shape:
             raise refusal("option", f"values must hold one number for each of {len(self.cameras)} entries, got the shape {given.shape}")
         return csr_array((given, self.cameras, self.offsets), self.shape)

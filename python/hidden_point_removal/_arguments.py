@@ -28,7 +28,8 @@ def refusal(code: str, message: str) -> HprError:
 def array(given: Any, name: str, kinds: str, words: str, code: str = "option") -> NDArray[Any]:
     """An array of numbers of these kinds, as NumPy letters them. A masked entry is no number."""
     try:
-        read = np.asarray(given)
+        is_foreign = not hasattr(given, "__array__") and hasattr(given, "numpy")
+        read = np.asarray(given.numpy() if is_foreign else given)
     except Exception as problem:  # What torch says of its tensors is passed on.
         raise refusal(code, f"{name} must be {words}: {problem}") from problem
     if np.ma.is_masked(given):
@@ -69,17 +70,7 @@ def _points_of(given: Any, name: str) -> Any:
         if path.suffix.lower() not in KINDS:
             raise refusal("positions-type", f"{name} must be an array of numbers, or a {', '.join(KINDS)} file, got {given!r:.60}")
         return np.concatenate([np.empty((0, 3), np.float32), *chunks(path)])
-    if all(hasattr(given, axis) for axis in "xyz") and not hasattr(given, "points"):
-        # Records of laspy, and tables of pandas.
-        given = {axis: getattr(given, axis) for axis in "xyz"}
-    names = getattr(getattr(given, "dtype", None), "names", None)
-    if names:
-        given = {column: given[column] for column in names}
-    if isinstance(given, dict):
-        # Columns by their names, as pye57 and structured arrays have them.
-        columns = {str(key).lower().removeprefix("cartesian"): column for key, column in given.items()}
-        if {"x", "y", "z"} <= columns.keys():
-            return np.stack([array(columns[axis], name, "fiu", "real numbers", "positions-type") for axis in "xyz"], axis=-1)
+    given = _by_name(given, name, "positions-type")
     if hasattr(given, "__array__"):
         return given
     if hasattr(given, "to_mesh"):
@@ -92,15 +83,30 @@ def _points_of(given: Any, name: str) -> Any:
     if hasattr(given, "point"):
         # Clouds of open3d.t.
         given = given.point["positions"]
-    return given.numpy() if hasattr(given, "numpy") else given
+    return given
+
+
+def _by_name(given: Any, name: str, code: str) -> Any:
+    """x, y and z side by side, if they have names: columns of tables, fields, entries of dictionaries, attributes."""
+    if all(hasattr(given, axis) for axis in "xyz") and not hasattr(given, "points"):
+        # Records of laspy, and tables of pandas.
+        given = {axis: getattr(given, axis) for axis in "xyz"}
+    fields = getattr(getattr(given, "dtype", None), "names", None)
+    names: Any = given if isinstance(given, dict) else fields or getattr(given, "column_names", getattr(given, "columns", None))
+    # pye57 writes cartesianX.
+    keys = {str(key).lower().removeprefix("cartesian"): key for key in (names if is_list(names) else ())}
+    if not {"x", "y", "z"} <= keys.keys():
+        return given
+    columns = [array(given[keys[axis]], name, "fiu", "real numbers", code) for axis in "xyz"]
+    if len({column.shape for column in columns}) > 1:
+        raise refusal(code, f"{name} must have as many x as y and z")
+    return np.stack(columns, axis=-1)
 
 
 def place(given: Any, name: str) -> tuple[float, float, float]:
     """Three finite numbers."""
     code, words = "viewpoint", "3 finite numbers"
-    if not hasattr(given, "__array__") and hasattr(given, "numpy"):
-        given = given.numpy()
-    read = array(given, name, "fiuO", words, code)
+    read = array(_by_name(given, name, code), name, "fiuO", words, code)
     try:
         x, y, z = (float(number) for number in (read.ravel() if read.shape in ((3, 1), (1, 3)) else read))
     except (TypeError, ValueError):
@@ -111,17 +117,26 @@ def place(given: Any, name: str) -> tuple[float, float, float]:
     return x, y, z
 
 
-def listed(given: Any, name: str) -> list[Any]:
-    """The entries of a list. One of the images of pycolmap's reconstruction is that of a camera."""
+def is_list(given: Any) -> bool:
+    return hasattr(given, "__iter__") and not isinstance(given, (str, bytes, os.PathLike)) and getattr(given, "shape", None) != ()
+
+
+def listed(given: Any, name: str, code: str = "viewpoint") -> list[Any]:
+    """The entries of a list, or the rows of a table. One of the images of pycolmap's reconstruction is that of a camera."""
     if hasattr(given, "reg_image_ids"):
         return [given.images[number] for number in given.reg_image_ids()]
-    if hasattr(given, "values") and not isinstance(given, dict):
+    words = "a list with an entry for each of them"
+    given = _by_name(given, name, code)
+    if isinstance(given, memoryview) or hasattr(given, "__array__") or hasattr(given, "numpy"):
+        # A tensor is not read row by row, and a table would be a list of its columns.
+        given = array(given, name, "fiuO", words, code)
+    elif callable(getattr(given, "values", None)) and not isinstance(given, dict):
         # Those images themselves, by their ids.
         given = given.values()
     # A camera is also a list, of its names.
-    if isinstance(given, (str, bytes, dict, os.PathLike)) or not hasattr(given, "__iter__") or hasattr(given, "cam_from_world"):
-        raise refusal("viewpoint", f"{name} must be a list with an entry for each of them, got {given!r:.60}")
-    return list(np.asarray(given) if isinstance(given, memoryview) else given)
+    if not is_list(given) or isinstance(given, dict) or hasattr(given, "cam_from_world"):
+        raise refusal(code, f"{name} must be {words}, got {given!r:.60}")
+    return list(given)
 
 
 def seats(given: Any, name: str) -> list[Any]:
@@ -236,10 +251,10 @@ def indices(given: Any, name: str, length: int) -> NDArray[np.uint32]:
 
 def stations(given: Any, name: str, length: int) -> list[tuple[tuple[float, float, float], NDArray[np.uint32]]]:
     """Where scanners stood, and the indices of the points that they measured, in a cloud of so many."""
-    listed = [] if isinstance(given, (str, bytes, dict)) or not hasattr(given, "__iter__") else list(given)
-    if not listed:
+    entries = listed(given, name, "option")
+    if not entries:
         raise refusal("option", f"{name} must be a list of at least one station, got {given!r:.60}")
-    return [_station(entry, f"{name}[{number}]", length) for number, entry in enumerate(listed)]
+    return [_station(entry, f"{name}[{number}]", length) for number, entry in enumerate(entries)]
 
 
 def _station(given: Any, name: str, length: int) -> tuple[tuple[float, float, float], NDArray[np.uint32]]:
@@ -299,3 +314,11 @@ def triangles(given: Any, name: str, length: int) -> NDArray[np.uint32]:
     if read.ndim != 2 or read.shape[1] != 3 or (read.size and not (0 <= read.min() and read.max() < length)):
         raise refusal("option", f"{name} must be {words}, got {_shown(given, read)}")
     return np.ascontiguousarray(read, np.uint32)
+
+
+def word_number(name: str, given: Any, words: tuple[str, ...]) -> int:
+    """The place of a word. The first one is the usual one."""
+    word = words[0] if given is None else given
+    if not isinstance(word, str) or word not in words:
+        raise refusal("option", f"{name} must be one of {', '.join(words)}, got {given!r:.60}")
+    return words.index(word)

@@ -33,10 +33,8 @@ class VisibilityMap:
 class PointCloud:
     """A point cloud, prepared for visibility queries.
 
-    `positions` has the shape (n, 3), in any units; of more columns, the first three count. It may also be a tensor, a cloud
-    of Open3D, laspy, pye57, trimesh or PyVista, columns by name, or the path of a file that `visible_from_tiles` reads. Arrays
-    of float32 and float64 are read without a copy. Other numbers are converted to float64. With `non_finite="skip"`, points
-    that are not finite keep their index and are never visible. A masked coordinate of a masked array counts as not finite.
+    `positions` is an array or tensor of shape (n, 3), a cloud or a table of another library, columns by name, or the path of
+    a file: `help(PointCloud)` lists them. With `non_finite="skip"`, points that are not finite are never visible.
     """
 
     def __new__(cls, positions: Positions, non_finite: Literal["error", "skip"] = "error") -> PointCloud: ...

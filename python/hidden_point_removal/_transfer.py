@@ -11,7 +11,7 @@ import numpy as np
 
 from ._native import PointCloud, _lenses
 from ._arguments import array as read_array
-from ._arguments import listed, refusal
+from ._arguments import is_list, listed, refusal, word_number
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator
@@ -56,9 +56,9 @@ def transfer(
     many cameras gave a value to each index.
     """
     how = [
-        _number("merge", merge, ("mean", "median", "vote", "best")),
-        0 if weights is None and merge != "best" else 1 + _number("weights", weights, ("distance", "angle", "score")),
-        _number("sampling", sampling, ("nearest", "bilinear")),
+        word_number("merge", merge, ("mean", "median", "vote", "best")),
+        0 if weights is None and merge != "best" else 1 + word_number("weights", weights, ("distance", "angle", "score")),
+        word_number("sampling", sampling, ("nearest", "bilinear")),
     ]
     if not isinstance(cloud, PointCloud):
         raise refusal("option", f"an argument must not be {cloud!r:.60}")
@@ -90,7 +90,7 @@ class _Pictures:
     """The images as arrays of three dimensions. Each is read when it is wanted, and not kept."""
 
     def __init__(self, images: Any, lenses: list[list[float]]) -> None:
-        if isinstance(images, (str, bytes, os.PathLike)) or not hasattr(images, "__iter__"):
+        if not is_list(images):
             raise refusal("option", f"images must be a list with an entry for each camera, got {images!r:.60}")
         if hasattr(images, "__len__") and len(images) != len(lenses):
             raise refusal("option", f"images must hold one image for each of {len(lenses)} cameras, got {len(images)}")
@@ -139,11 +139,3 @@ def _picture(given: Any, name: str) -> NDArray[Any]:
         return array
     is_single = size <= 2 or (kind == "f" and size == 4)
     return array.astype(np.float32 if is_single else np.float64, copy=False)
-
-
-def _number(name: str, given: Any, words: tuple[str, ...]) -> int:
-    """The place of a word. The first one is the usual one."""
-    word = words[0] if given is None else given
-    if not isinstance(word, str) or word not in words:
-        raise refusal("option", f"{name} must be one of {', '.join(words)}, got {given!r:.60}")
-    return words.index(word)

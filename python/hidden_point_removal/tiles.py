@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ._native import Horizon, PointCloud, merge_visible
-from ._arguments import refusal
+from ._arguments import listed, place, refusal
 from .types import MergeOptions, Unpack
 
 KINDS = (".laz", ".las", ".parquet", ".npy")
@@ -59,13 +59,11 @@ def visible_from_tiles(
     Raises `HprError` with the code "option", "viewpoint", "radius", "non-finite", or "load" for a file that cannot be read;
     `ConnectionError` if the cluster is lost.
     """
-    tiles = [Path(path) for path in _listed("paths", paths)]
-    eyes = _listed("viewpoints", viewpoints)
+    tiles = [Path(path) for path in listed(paths, "paths", "option")]
+    eyes = [[*place(eye, f"viewpoints[{number}]")] for number, eye in enumerate(listed(viewpoints, "viewpoints"))]
     asked: dict[str, Any] = {name: value for name, value in options.items() if value is not None}
     # What is wrong is refused before a tile is read.
-    for eye in eyes or [[0.0, 0.0, 0.0]]:
-        Horizon(eye, **(asked or {"radius": 1.0}))
-    eyes = np.asarray(eyes, np.float64).reshape(-1, 3).tolist()
+    Horizon([0.0, 0.0, 0.0], **(asked or {"radius": 1.0}))
 
     def tell(before: int, done: int) -> None:
         if on_progress is not None:
@@ -92,12 +90,6 @@ def visible_from_tiles(
     parts = _run(client, partial(tell, len(tiles)), _screened, jobs, files, eyes=eyes, options=asked, horizons=horizons)
     seen = [merge_visible([(part[2 * k], part[2 * k + 1]) for part in parts], eye, **asked) for k, eye in enumerate(eyes)]
     return Answers(seen, asked)
-
-
-def _listed(name: str, given: Any) -> list[Any]:
-    if isinstance(given, (str, bytes, os.PathLike)) or not hasattr(given, "__iter__"):
-        raise refusal("option", f"{name} must be a list, got {given!r:.60}")
-    return list(given)
 
 
 def _scale(sample: NDArray[Any], count: int) -> float:

@@ -15,10 +15,10 @@ use crate::shared::{Shared, worked};
 
 /// A point cloud, prepared for visibility queries.
 ///
-/// positions: array of float32 or float64, shape (n, 3), in any units. Of more columns, the first three count. Also a
-///     tensor in main memory, or a cloud of another library that has its array as `points`, such as Open3D's. Arrays that
-///     are contiguous are read without a copy. Other numbers are converted to float64. A masked coordinate counts as not
-///     finite.
+/// positions: array or tensor of shape (n, 3), in any units; of more columns, the first three count. Also a cloud of Open3D,
+///     laspy, pye57, trimesh or PyVista; a table of pandas, polars or Arrow, or a dict, with columns x, y and z; or the path
+///     of a LAS, LAZ, COPC, Parquet or NumPy file. Contiguous arrays of float32 and float64 are read without a copy. Other
+///     numbers are converted to float64. A masked coordinate counts as not finite.
 /// non_finite: "error" (default) refuses NaN and infinity. With "skip", such points keep their index and are never
 ///     visible.
 ///

@@ -132,7 +132,7 @@ fn set(options: &mut Options, name: &str, value: &Bound<'_, PyAny>) -> PyResult<
         let [(key, value)] = &entries.iter().collect::<Vec<_>>()[..] else {
             return Ok(false);
         };
-        let key: String = key.extract()?;
+        let key: String = given(key)?;
         let set = |value: Given<'_>| options.set(name, Given::Entry(&key, &value));
         return Ok(with_plain(value, set));
     }
@@ -185,7 +185,7 @@ fn within(
         if value.is_none() {
             continue;
         }
-        let name: String = name.extract()?;
+        let name: String = given(&name)?;
         match name.as_str() {
             "distance" => {
                 let distance = number(&value).ok_or_else(|| {

@@ -430,7 +430,11 @@ def test_an_answer_is_an_index(dtype):
     assert PointCloud(points).visible_from([0, 0, 0], within={"distance": 0.0}).points.shape == (0, 3)
     shown = seen._repr_html_()
     assert f"<b>{seen.count}</b> of 900" in shown and f"{seen.radius:.6g}" in shown
-    assert "looks" in cloud.visible_from(VIEWPOINT, looks=2)._repr_html_()
+    looks = cloud.visible_from(VIEWPOINT, looks=2)
+    assert "looks=2" in looks._repr_html_() and repr(looks) == f"Visibility({looks.count} of 900 points, looks=2)"
+    assert repr(seen) == f"Visibility({seen.count} of 900 points, radius={seen.radius:.6g})"
+    power = cloud.visible_from(VIEWPOINT, inversion={"power": 2})
+    assert repr(power).endswith(f"radius={power.radius:.6g}, power=2)") and repr(PointCloud([]).visible_from(VIEWPOINT)) == "Visibility(0 of 0 points)"
 
 
 def test_what_the_survey_finds_is_what_looks_follow():

@@ -1,7 +1,9 @@
 """python -m hidden_point_removal."""
 
+import json
 import subprocess
 import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -9,6 +11,8 @@ import pytest
 from hidden_point_removal import PointCloud, __version__
 
 POINTS = np.random.default_rng(1).normal(size=(2000, 3))
+PLACE = ["--from", "0,0,5"]
+TABLE = Path(__file__).parents[2] / "src" / "options.json"
 
 
 def run(folder, *words):
@@ -16,15 +20,18 @@ def run(folder, *words):
 
 
 @pytest.mark.parametrize(("words", "options"), [
-    ([], {}),
+    ([], {"looks": 3}),
+    (["--looks", 0], {}),
     (["--looks", 3, "--thickness", 0.1, "--surface", "clean"], {"looks": 3, "thickness": 0.1, "surface": "clean"}),
-    (["--inversion", '{"power": 1.5}', "--within", '{"distance": 6}'], {"inversion": {"power": 1.5}, "within": {"distance": 6}}),
+    (["--inversion", "power:1.5", "--within", 6], {"inversion": {"power": 1.5}, "within": {"distance": 6}}),
+    (["--inversion", "exponential:auto"], {"inversion": {"exponential": "auto"}}),
+    (["--inversion", "spherical", "--exponent", 2, "--within", "-1,-1,-1,1,1,1"], {"exponent": 2, "within": {"box": [[-1] * 3, [1] * 3]}}),
     (["--radius", "opposite", "--threads", 2], {"radius": "opposite"}),
 ])
 def test_a_file(tmp_path, words, options):
     np.save(tmp_path / "cloud.npy", POINTS)
     eyes = [[0, 0, 5], [-5, 0.5, 0]]
-    done = run(tmp_path, "cloud.npy", "--from", "0,0,5", "--from=-5,.5,0", *words, "-o", "seen.npy")
+    done = run(tmp_path, "cloud.npy", "--from", "0,0,5", "--from", "-5,.5,0", *words, "-o", "seen.npy")
     seen = [PointCloud(POINTS).visible_from(eye, **options).indices for eye in eyes]
     said = [f"{eye}: {len(own)} of 2000 points are visible" for eye, own in zip(("0.0,0.0,5.0", "-5.0,0.5,0.0"), seen)]
     assert (done.returncode, done.stdout.splitlines()) == (0, said), done.stderr
@@ -42,15 +49,22 @@ def test_several_files(tmp_path):
 def test_help_and_what_is_refused(tmp_path):
     np.save(tmp_path / "a.npy", POINTS)
     shown = " ".join(run(tmp_path, "--help").stdout.split())
-    assert "--looks" in shown and "each decides only the points that it is sure of" in shown and run(tmp_path, "--version").stdout.strip() == __version__
+    flags = {name: row for name, row in json.loads(TABLE.read_text())["view"]["options"].items() if "flag" in row}
+    assert all(f"--{name} {row['flag']} {row.get('help', '')}" in shown for name, row in flags.items()) and "--scores" not in shown
+    assert run(tmp_path, "--version").stdout.strip() == __version__
     for words, said in (
-        (["a.npy", "--from", "0,0"], "argument --from"),
-        (["a.npy", "--from", "0,0,5", "--looks", "4"], "looks"),
-        (["b.npy", "--from", "0,0,5"], "b.npy cannot be read"),
-        (["b\x1b.npy", "--from", "0,0,5"], "b?.npy cannot be read"),
-        (["a.xyz", "--from", "0,0,5"], ".npy"),
-        (["a.npy", "--from", "0,0,5", "-o", "a.npy"], "another .npy"),
-        (["a.npy", "--from", "0,0,5", "--draft", "1"], "--draft"),
+        (["a.npy", "--from", "0,0"], "argument --from: X,Y,Z is needed, not 0,0"),
+        (["b.npy", *PLACE, "--looks", "4"], "--looks must be from 2 to 3, got 4"),
+        (["b.npy", *PLACE, "--inversion", "power"], "argument --inversion: spherical, power:G"),
+        (["b.npy", *PLACE, "--within", "1,2"], "argument --within: a distance, or X,Y,Z,X,Y,Z"),
+        (["b.npy", *PLACE, "--exponent", "1", "--radius", "9"], "exclude each other"),
+        (["a.npy", *PLACE, "-o", "a.csv"], "a.csv: the output must be a .npy or .txt file"),
+        (["a.npy", *PLACE, "-o", "a.npy"], "a.npy: the output must not be an input"),
+        (["a.npy", *PLACE, "--draft", "\x1b1"], "--draft ?1"),
+        (["a.npy", *PLACE, "--scores"], "--scores"),
     ):
         done = run(tmp_path, *words)
-        assert done.returncode not in (0, -2) and said in done.stderr and "Traceback" not in done.stderr, done.stderr
+        assert done.returncode == 2 and said in done.stderr and "\x1b" not in done.stderr, done.stderr
+    for file, said in (("b.npy", "b.npy cannot be read"), ("b\x1b.npy", "b?.npy cannot be read"), ("a.xyz", ".npy")):
+        done = run(tmp_path, file, *PLACE)
+        assert done.returncode == 1 and said in done.stderr and "Traceback" not in done.stderr, done.stderr

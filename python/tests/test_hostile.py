@@ -148,6 +148,8 @@ def test_a_forked_process_answers():
     lambda cloud: cloud.illuminate([VIEWPOINT], smoothing=-1),
     lambda cloud: cloud.illuminate([VIEWPOINT], ambient="dim"),
     lambda cloud: cloud.visible_from_camera({5: 1}),
+    lambda cloud: cloud.visible_from(VIEWPOINT, within={5: 1}),
+    lambda cloud: cloud.visible_from(VIEWPOINT, inversion={5: 1}),
     lambda cloud: merge_visible(5, VIEWPOINT, radius=9),
     lambda cloud: transfer(ball(5), [], []),
 ])

@@ -1,5 +1,7 @@
 """Arguments are read as other libraries hold them, or refused: never misread."""
 
+import importlib.util
+import inspect
 import signal
 import subprocess
 import sys
@@ -92,15 +94,48 @@ def forms(array):
     yield array
     yield np.asfortranarray(array)
     yield np.ma.array(array, mask=False)
+    yield Tensor(array)
     if array.dtype.str[0] != ">":
         yield memoryview(array)
-        yield array.tolist() if array.dtype != bool else array
-        try:
-            import torch
+        yield from (array.tolist(), tuple(array.tolist())) if array.dtype != bool else ()
+        for library, make in LIBRARIES.items():
+            try:
+                yield make(importlib.import_module(library), np.array(array))
+            except (ImportError, TypeError):
+                pass
 
-            yield torch.from_numpy(np.array(array))
-        except (ImportError, TypeError):
-            pass
+
+class Tensor:
+    """As in torch: `values` is something else, and so are `points`. Torch says what to do with tensors elsewhere."""
+
+    points = "none"
+
+    def __init__(self, array, hint=None):
+        self.array, self.hint = array, hint
+
+    def values(self):
+        raise NotImplementedError
+
+    def __len__(self):
+        return len(self.array)
+
+    def __getitem__(self, number):
+        return Tensor(self.array[number])
+
+    def __iter__(self):
+        return map(Tensor, self.array)
+
+    def __array__(self, dtype=None, copy=None):
+        if self.hint:
+            raise TypeError(self.hint)
+        return self.array if dtype is None else self.array.astype(dtype)
+
+
+def table(library, array):
+    return (library.DataFrame if array.ndim == 2 else library.Series)(array)
+
+
+LIBRARIES = {"torch": lambda torch, array: torch.from_numpy(array), "pandas": table, "polars": table}
 
 
 @pytest.mark.parametrize("number", NUMBERS)
@@ -138,25 +173,76 @@ def test_masked_and_structured_arrays_are_refused(name):
             ask(given)
 
 
+#: A good value of each parameter of a question, by its name.
+VALUES = {
+    **dict.fromkeys(("viewpoints", "candidates", "lights"), [EYE, [0, 50, 0]]), "viewpoint": EYE, "direction": [0, 1, -2], "positions": WHOLE.tolist(),
+    "camera": CAMERA, "cameras": [CAMERA, CAMERA], "stations": [{"viewpoint": EYE, "indices": [1, 2, 7, 39]}], "indices": [1, 2, 7, 39], "k": 1, "width": 8, "height": 4,
+}  # fmt: skip
+QUESTIONS = {name: own for name, own in vars(PointCloud).items() if not name.startswith("_") and callable(own)}
+WRONG = [
+    object(), "text", b"bytes", 5, np.array(5), np.array("text"), [], {}, {5: 1}, {"x": [1, 2], "y": [1], "z": 3}, {1, 2}, [[1], [1, 2]], [None], [object()],
+    Tensor(np.array(["a"])), Tensor(WHOLE, "hint"), np.zeros((2, 2, 2)), np.array([None, "a"]), np.zeros(0), iter([EYE]), range(3), -1, float("nan"), 10**30,
+]  # fmt: skip
+
+
+def told(answer):
+    """An answer as lists."""
+    if hasattr(answer, "data") and hasattr(answer, "uniforms"):
+        return answer.data.tolist()
+    return [told(part) for part in answer] if type(answer).__mro__[1] is tuple or type(answer) is tuple else np.asarray(answer).tolist()
+
+
+@pytest.mark.parametrize("name", QUESTIONS)
+def test_each_question_takes_what_other_libraries_hold(name):
+    needed = [own.name for own in inspect.signature(QUESTIONS[name]).parameters.values() if own.default is own.empty and own.name != "self"]
+    good = {parameter: VALUES[parameter] for parameter in needed}
+
+    def ask(given):
+        own = cloud()
+        answer = QUESTIONS[name](own, *given.values())
+        return told(own.visible_from(EYE) if answer is None else answer)
+
+    expected = ask(good)
+    for parameter, value in good.items():
+        is_array = isinstance(value, list) and not isinstance(value[0], dict)
+        for form in forms(np.array(value)) if is_array else (tuple(value), np.array(value, object)) if isinstance(value, list) else ():
+            assert ask({**good, parameter: form}) == expected, (parameter, form)
+        for form in WRONG:
+            try:
+                ask({**good, parameter: form})
+            except HprError as refused:
+                assert refused.code, form
+
+
+def test_columns_are_read_by_their_names():
+    columns = {"label": np.arange(500), "z": POINTS[:, 2], "x": POINTS[:, 0].astype(np.float32), "y": POINTS[:, 1]}
+    expected = np.stack([columns[axis] for axis in "xyz"], axis=1)
+    seen, counts = PointCloud(expected).visible_from(VIEWPOINT), cloud().coverage(expected[:4])
+    tables = [columns, np.rec.fromarrays([*columns.values()], names=[*columns])]
+    for library, make in (("pandas", "DataFrame"), ("polars", "DataFrame"), ("pyarrow", "table")):
+        if importlib.util.find_spec(library):
+            tables.append(getattr(importlib.import_module(library), make)(columns))
+    for given in tables:
+        assert np.array_equal(PointCloud(given).visible_from(VIEWPOINT), seen), type(given)
+        few = given[:4] if given is not columns else {name: column[:4] for name, column in columns.items()}
+        assert np.array_equal(cloud().coverage(few), counts), type(given)
+
+
+def test_an_answer_is_an_index_of_pandas():
+    pandas = pytest.importorskip("pandas", reason="pandas is not installed")
+    frame = pandas.DataFrame(POINTS, columns=[*"xyz"], index=np.arange(500)[::-1])
+    for part in (frame[SEEN], frame.loc[SEEN], frame.iloc[SEEN], frame.loc[SEEN, [*"xyz"]], frame[SEEN.mask()]):
+        assert np.array_equal(part, SEEN.points)
+    assert np.array_equal(frame.x[SEEN], SEEN.points[:, 0]) and len(frame[~SEEN]) == 500 - len(SEEN)
+    frame.loc[SEEN, "seen"] = 1
+    assert frame.seen.sum() == len(SEEN)
+
+
 class Cloud:
     """As in Open3D: the points are a sequence that NumPy can read."""
 
     def __init__(self, points, name="points"):
         setattr(self, name, points)
-
-
-class Tensor:
-    """As in torch: `__array__`, and `points` that are something else. Torch says what to do with tensors elsewhere."""
-
-    points = "none"
-
-    def __init__(self, hint=None):
-        self.hint = hint
-
-    def __array__(self, dtype=None, copy=None):
-        if self.hint:
-            raise TypeError(self.hint)
-        return POINTS if dtype is None else POINTS.astype(dtype)
 
 
 class Lazy:
@@ -182,7 +268,7 @@ def fields(names):
         Cloud(POINTS, "xyz"),
         Cloud(POINTS, "vertices"),
         Cloud({"positions": Lazy()}, "point"),
-        Tensor(),
+        Tensor(POINTS),
         Lazy(),
         fields(["x", "y", "z", "intensity"]),
         fields(["X", "Y", "Z"]),
@@ -289,7 +375,7 @@ def test_what_torch_says_is_passed_on():
     hint = "can't convert cuda:0 device type tensor to numpy. Use Tensor.cpu() to copy the tensor to host memory first."
     for ask in (PointCloud, cloud().visible_from, cloud().remove, lambda v: seen_by({"camera_to_world": v, **LENS})):
         with pytest.raises(HprError, match=r"Use Tensor\.cpu\(\)"):
-            ask(Tensor(hint))
+            ask(Tensor(POINTS, hint))
 
 
 def test_torch():

@@ -123,7 +123,7 @@ def test_few_points(tmp_path):
     ("radius", "radius", {"radius": 0.1}),
     ("option", "paths must be a list", {"paths": "a.npy"}),
     ("option", "paths must be a list", {"paths": Path("a.npy")}),
-    ("option", "viewpoints must be a list", {"viewpoints": 5}),
+    ("viewpoint", "viewpoints must be a list", {"viewpoints": 5}),
     ("viewpoint", "3 finite numbers, got 0", {"viewpoints": [0, 0, 5]}),
     ("viewpoint", "3 finite numbers", {"viewpoints": [[0, 0, 5], [0, 0, np.nan]]}),
     ("option", "client", {"client": 7}),

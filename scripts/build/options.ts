@@ -61,6 +61,12 @@ export function makeOptions(): void {
     "# End of options.",
   );
   writePart(
+    "python/hidden_point_removal/__main__.py",
+    "# Flags, from src/options.json.",
+    ["FLAGS = [", ...flagsOf(view).map((row) => `    (${row}),`), "]"].join("\n"),
+    "# End of flags.",
+  );
+  writePart(
     "python/src/options.rs",
     "// Options of a view, from src/options.json.",
     pythonTable(view),
@@ -157,15 +163,17 @@ function rowOf({ number, words, whole, truth, call, space, needs, excludes }: Op
   return { number, words, whole, truth, call, space, needs, excludes };
 }
 
-/** The command's options: a name, the word for its value, and what the help says. */
+/** The options of the commands: a name, the word for its value, and what the help says. */
+function flagsOf({ options }: Group): string[] {
+  return Object.entries(options).flatMap(([name, { flag, help, short }]) =>
+    flag === undefined ? [] : [[name, flag, help ?? plain(short)].map((text) => JSON.stringify(text)).join(", ")],
+  );
+}
+
 function flags(groups: Record<string, Group>): string {
-  const lines = Object.entries(groups).flatMap(([group, { options }]) => {
-    const rows = Object.entries(options).flatMap(([name, { flag, help, short }]) =>
-      flag === undefined
-        ? []
-        : [`  [${[name, flag, help ?? plain(short)].map((text) => JSON.stringify(text)).join(", ")}],`],
-    );
-    return rows.length === 0 ? [] : [`export const ${group.toUpperCase()}_FLAGS = [`, ...rows, "] as const;", ""];
+  const lines = Object.entries(groups).flatMap(([name, group]) => {
+    const rows = flagsOf(group).map((row) => `  [${row}],`);
+    return rows.length === 0 ? [] : [`export const ${name.toUpperCase()}_FLAGS = [`, ...rows, "] as const;", ""];
   });
   return [`// Made from ${TABLE} by scripts/build/options.ts.`, ...lines].join("\n");
 }

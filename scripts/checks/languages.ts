@@ -84,7 +84,7 @@ export const pythonCheck: Check = {
   needs: [BUILD],
   run: async () => {
     // The tests of Dask, LAZ and Parquet skip themselves without their packages. `npm run test:scale` installs these.
-    const lacking = await setUpPython(["matplotlib>=3.8", "mypy>=1.11", "scipy>=1.11"]);
+    const lacking = await setUpPython(["matplotlib>=3.8", "mypy>=1.11", "pandas>=2", "scipy>=1.11"]);
     return lacking === undefined ? pytest("python/tests") : { passed: 0, failed: 0, skipped: lacking };
   },
 };
