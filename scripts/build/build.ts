@@ -74,7 +74,9 @@ const SHARED = [
   // `inline` must not name the file of the wasm: bundlers would copy it.
   { name: "own-wasm", test: /src\/ts\/own-wasm/ },
   { name: "base", test: /src\/ts\/|rolldown/ },
-].map((group) => ({ ...group, minShareCount: 2 }));
+  // What files.js shares with the readers that it loads when they are needed: it must not export it.
+  { name: "formats", test: /src\/ts\/(formats|files)\/(?!e57|.*gltf|las\/(check|details|laz|read))/, minShareCount: 1 },
+].map((group) => ({ minShareCount: 2, ...group }));
 
 /**
  * Bundles modules of src/ts into dist, each with a map to its sources: one file for each entry, and those that the entries

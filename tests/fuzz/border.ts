@@ -1,9 +1,11 @@
 // The public API under arguments of any kind. Every call must be answered correctly, or refused as the contract says.
 import fc from "fast-check";
 import { init } from "hidden-point-removal";
+import { init as initLite } from "hidden-point-removal/lite";
 import { WorkerPointCloud } from "hidden-point-removal/worker";
 import { actingArguments, actingChanges, disappearingMemory } from "./border/acting.js";
 import { changes } from "./border/changes.js";
+import { exports } from "./border/exports.js";
 import { flights } from "./border/flight.js";
 import { oneShot, questions } from "./border/single.js";
 import { structured } from "./border/structured.js";
@@ -34,12 +36,13 @@ export const PROPERTIES: readonly Property[] = [
   entry("changes that act while they are read", 40, actingChanges),
   entry("memory that goes away while arguments are read", 40, disappearingMemory),
   entry("workers that end in flight", 10, flights),
+  entry("every export, with hostile values", 300, exports),
   entry("structured clouds, here, in a worker and in several", 10, structured),
 ];
 
 /** Runs all properties in turn until the time is over. Returns how many runs found something wrong. */
 export async function fuzzBorder(minutes: number, seed: number): Promise<number> {
-  await init();
+  await Promise.all([init(), initLite()]);
   // Keeps the shared worker alive between cases.
   const resident = await WorkerPointCloud.create([], { shared: true });
   const end = Date.now() + 60_000 * minutes;

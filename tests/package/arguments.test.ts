@@ -1,14 +1,21 @@
-// Arguments as users hold them: vectors of classes, records without a prototype, signals with a reason.
+// Arguments as users hold them, for every question here and in workers: vectors of classes, records without a prototype,
+// arrays that change after the call, signals with a reason.
+import * as hpr from "hidden-point-removal";
+import { init } from "hidden-point-removal";
+import { colmapVis } from "hidden-point-removal/files";
+import { WorkerPointCloud } from "hidden-point-removal/worker";
 import { Vector3 } from "three";
-import { afterAll, expect, it } from "vitest";
+import { afterAll, describe, expect, it } from "vitest";
 
-import { bumpySphere, problemOf, readyPackage } from "./support";
+import { transferredAway } from "../fuzz/border/argument";
+import { outcomeOf } from "../fuzz/border/outcome";
+import { type AnyCloud, asked, CAMERAS, Part, QUESTIONS } from "../fuzz/border/table";
+import { bumpySphere, problemOf } from "./support";
 
-const hpr = await readyPackage();
-const { HprError, PointCloud, WorkerPointCloud } = hpr;
-const { colmapVis } = await import("hidden-point-removal/files");
-
+await init();
+const { HprError, PointCloud } = hpr;
 const positions = bumpySphere(3, 3000);
+const ALL = new Part(positions.length / 3);
 const cloud = new PointCloud(positions);
 const remote = await WorkerPointCloud.create(positions, { workers: 2 });
 afterAll(() => remote.dispose());
@@ -28,79 +35,132 @@ class Vector {
   }
 }
 
-const far = [0.5, 1, 5] as const;
-const CAMERA = hpr.cameraFromPose([0, 0, 5], [0, 0, 0, 1], hpr.intrinsicsFromFieldOfView(50, 64, 48), "opengl");
+const FAR = [0.5, 1, 5] as const;
+const bare = Object.assign(Object.create(null) as object, { x: FAR[0], y: FAR[1], z: FAR[2] });
+const PLACES = [new Vector3(...FAR), new Vector(...FAR), bare, Float64Array.from(FAR)];
 
-const IMAGE = { data: Float32Array.from({ length: 64 * 48 }, (_, i) => i), width: 64, height: 48 };
+const IMAGE = { data: Float32Array.from({ length: 32 * 24 }, (_, i) => i), width: 32, height: 24 };
 
-type AnyCloud = typeof cloud | typeof remote;
-type Place = { x: number; y: number; z: number } | readonly number[];
-
-/** Every question, with a place and further options. */
-const QUESTIONS: Record<string, (cloud: AnyCloud, at: Place, more: object) => unknown> = {
-  visibleFrom: (one, at, more) => one.visibleFrom(at, more),
-  visibleFromDirection: (one, at, more) => one.visibleFromDirection(at as never, more),
-  visibleFromAny: (one, at, more) => one.visibleFromAny([at], more),
-  visibleFromAtLeast: (one, at, more) => one.visibleFromAtLeast(1, [at], more),
-  visibleFromCamera: (one, _, more) => one.visibleFromCamera(CAMERA, more),
-  sees: (one, at, more) => one.sees(at, [9, 9, 9, 0, 0, 2], more),
-  coverage: (one, at, more) => one.coverage([at], more),
-  seenBy: (one, _, more) => one.seenBy([CAMERA], more),
-  placeViewpoints: (one, at, more) => one.placeViewpoints([at, [0, 0, -5]], more),
-  panorama: (one, at, more) => one.panorama(at, { width: 8, height: 4, ...more }),
-  visibilityMap: async (one, at, more) => (await one.visibilityMap(at, more)).hides(positions),
-  reconstruct: (one, at, more) => one.reconstruct(at, more),
-  illuminate: (one, at, more) => one.illuminate([at], more),
-  calibrate: (one, at, more) => one.calibrate([{ viewpoint: at, indices: [0, 1, 2] }], more),
-  transfer: (one, _, more) => hpr.transfer(one as never, [CAMERA], [IMAGE], more),
+/** A map of directions is compared by what it hides. A calibration gives back the caller's own options. */
+const told = async (answer: unknown) => {
+  const known = await answer;
+  if (known instanceof hpr.VisibilityMap) return known.hides(positions);
+  return typeof known === "object" && known !== null && "recall" in known ? { ...known, options: undefined } : known;
 };
 
-it.each(Object.keys(QUESTIONS))("%s takes vectors of any class, and records without a prototype", async (name) => {
-  const ask = QUESTIONS[name]!;
-  const bare = Object.assign(Object.create(null) as object, { x: far[0], y: far[1], z: far[2] }) as Vector;
-  for (const of of [cloud, remote]) {
-    const expected = await ask(of, far, {});
-    for (const at of [new Vector3(...far), new Vector(...far), bare, Float64Array.from(far)]) {
-      expect(await ask(of, at as Vector, Object.create(null) as object)).toEqual(expected);
+/** Calls `act` with each object and array in a tree of arguments. */
+function within(tree: unknown, act: (node: object) => void): void {
+  if (typeof tree !== "object" || tree === null) return;
+  act(tree);
+  if (!ArrayBuffer.isView(tree)) Object.values(tree).forEach((branch) => within(branch, act));
+}
+
+describe.each(Object.keys(QUESTIONS))("%s", (name) => {
+  const args = (at: unknown) => QUESTIONS[name]!(at, ALL, ALL.length);
+  const ask = (of: AnyCloud, more?: object, at: unknown = FAR) => told(asked(of, name, args(at), more));
+  const takesWithin = name !== "autoRadius";
+  const mask = () => Uint8Array.from(positions.subarray(0, ALL.length), (_, i) => i % 4);
+
+  it("takes vectors of any class, and records without a prototype", async () => {
+    for (const of of [cloud, remote]) {
+      const expected = await ask(of);
+      for (const at of PLACES) {
+        const given = args(at);
+        within(given.at(-1), (node) =>
+          Reflect.setPrototypeOf(node, ArrayBuffer.isView(node) ? Float64Array.prototype : null),
+        );
+        expect(await told(asked(of, name, given))).toEqual(expected);
+      }
     }
-  }
-});
+  });
 
-it.each(Object.keys(QUESTIONS))("%s is not changed by what somebody added to Object.prototype", async (name) => {
-  const ask = QUESTIONS[name]!;
-  const expected = await ask(cloud, far, {});
-  const added = { looks: 2, exponent: 1, mask: new Uint8Array(3000), convention: "opencv", scores: true, length: 7 };
-  const prototype = Object.prototype as unknown as Record<string, unknown>;
-  Object.assign(prototype, added);
-  try {
-    const found = await ask(cloud, far, {});
-    for (const key of Object.keys(added)) Reflect.deleteProperty(prototype, key);
-    expect(found).toEqual(expected);
-  } finally {
-    for (const key of Object.keys(added)) Reflect.deleteProperty(prototype, key);
-  }
-});
+  it("is not changed by what somebody added to Object.prototype", async () => {
+    const added = {
+      looks: 2,
+      exponent: 1,
+      mask: new Uint8Array(3000),
+      convention: "opencv",
+      scores: true,
+      length: 7,
+      channels: 4,
+    };
+    for (const of of [cloud, remote]) {
+      const expected = await ask(of);
+      Object.assign(Object.prototype, added);
+      const found = Promise.resolve(ask(of)).finally(() => {
+        for (const key of Object.keys(added)) Reflect.deleteProperty(Object.prototype, key);
+      });
+      expect(await found).toEqual(expected);
+    }
+  });
 
-it.each(Object.keys(QUESTIONS))("%s in a worker rejects with the reason of its signal", async (name) => {
-  const reason = new TypeError("the user went on");
-  const controller = new AbortController();
-  const asked = problemOf(() => QUESTIONS[name]!(remote, far, { signal: controller.signal }));
-  controller.abort(reason);
-  expect(await asked).toBe(reason);
-  expect(await problemOf(() => QUESTIONS[name]!(remote, far, { signal: AbortSignal.abort(reason) }))).toBe(reason);
+  it("in a worker takes arguments as they are at the call", async () => {
+    const options = () => (takesWithin ? { within: { mask: mask() } } : {});
+    const expected = await ask(cloud, options());
+    const damages: ((node: object) => void)[] = [
+      (node) => ArrayBuffer.isView(node) && new Uint8Array(node.buffer).fill(77),
+      (node) => ArrayBuffer.isView(node) && transferredAway(node),
+      (node) => !ArrayBuffer.isView(node) && Object.keys(node).forEach((key) => Reflect.deleteProperty(node, key)),
+    ];
+    for (const damage of damages) {
+      const [given, more] = [args(Float64Array.from(FAR)), options()];
+      const found = told(asked(remote, name, given, more));
+      within([given, more], damage);
+      expect(await found).toEqual(expected);
+    }
+  });
+
+  it("refuses arrays whose memory is gone", async () => {
+    const views: object[] = [];
+    within(args(Float64Array.from(FAR)), (node) => ArrayBuffer.isView(node) && views.push(node));
+    for (const [lost] of views.entries()) {
+      const given = args(Float64Array.from(FAR));
+      let next = 0;
+      within(given, (node) => {
+        if (ArrayBuffer.isView(node) && next++ === lost) transferredAway(node);
+      });
+      for (const of of [cloud, remote]) expect(await problemOf(() => asked(of, name, given))).toBeInstanceOf(HprError);
+    }
+  });
+
+  it("in a worker rejects with the reason of its signal, and drops what a newer question overtakes", async () => {
+    const reason = new TypeError("the user went on");
+    const controller = new AbortController();
+    const given = problemOf(() => ask(remote, { signal: controller.signal }));
+    controller.abort(reason);
+    expect(await given).toBe(reason);
+    expect(await problemOf(() => ask(remote, { signal: AbortSignal.abort(reason) }))).toBe(reason);
+    const expected = await ask(cloud);
+    const busy = Array.from({ length: 4 }, () => ask(remote));
+    const [old, newer] = [problemOf(() => ask(remote, { latest: true })), ask(remote, { latest: true })];
+    expect([(await old).name, await newer]).toEqual(["AbortError", expected]);
+    expect(await Promise.all(busy)).toEqual(busy.map(() => expected));
+  });
+
+  it("tells its progress, or refuses to", async () => {
+    // Here, `autoRadius` takes no options.
+    for (const of of name === "autoRadius" ? [remote] : [cloud, remote]) {
+      const heard: number[] = [];
+      const onProgress = (share: number) => heard.push(share);
+      const outcome = await outcomeOf(() => ask(of, { onProgress }));
+      const isMany = ["coverage", "seenBy", "placeViewpoints", "transfer"].includes(name);
+      expect("refused" in outcome ? outcome.refused : heard.at(-1)).toBe(isMany ? 1 : "option");
+      expect(heard).toEqual([...heard].sort((a, b) => a - b));
+    }
+  });
 });
 
 it.each<[string, () => unknown]>([
   ["transfer", () => hpr.transfer(undefined as never, [], [])],
   ["transfer", () => hpr.transfer(cloud, [], null as never)],
-  ["transfer", () => hpr.transfer(cloud, [CAMERA], [{ data: IMAGE.data, width: 64n, height: 48 }] as never)],
+  ["transfer", () => hpr.transfer(cloud, [CAMERAS[0]!], [{ data: IMAGE.data, width: 64n, height: 48 }] as never)],
   ["calibrate", () => cloud.calibrate([null] as never)],
   ["colmapVis", () => colmapVis(null as never)],
   ["colmapVis", () => colmapVis({ offsets: { at: () => 0, length: 1 }, cameras: [] } as never)],
   ["orientNormals", () => hpr.orientNormals(new Float32Array(3), null as never)],
   ["intrinsicsFromFieldOfView", () => hpr.intrinsicsFromFieldOfView(1n as never, 2, 2)],
   ["intrinsicsFromFieldOfView", () => hpr.intrinsicsFromFieldOfView(50, 2n as never, 2)],
-  ["cameraFromPose", () => hpr.cameraFromPose({ length: 1e15 }, [0, 0, 0, 1], CAMERA)],
+  ["cameraFromPose", () => hpr.cameraFromPose({ length: 1e15 }, [0, 0, 0, 1], CAMERAS[0]!)],
   ["cameraFromThree", () => hpr.cameraFromThree({ isPerspectiveCamera: true } as never, 4, 4)],
 ])("%s refuses junk with an HprError", async (_, call) => {
   expect(await problemOf(call)).toBeInstanceOf(HprError);

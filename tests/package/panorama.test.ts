@@ -2,7 +2,7 @@ import { expect, it } from "vitest";
 
 import { randomNumbers, readyPackage } from "./support";
 
-const { PointCloud, WorkerPointCloud } = await readyPackage();
+const { PointCloud } = await readyPackage();
 
 const SKY = 2 ** 32 - 1;
 const size = { width: 128, height: 64 };
@@ -36,19 +36,6 @@ it("gives ranges, points and areas of a dome", () => {
   const [x, y] = [0, 32].map((column) => indices[20 * 128 + column]!);
   expect(positions[3 * x!]! / 5).toBeGreaterThan(0.7);
   expect(positions[3 * y! + 1]! / 5).toBeGreaterThan(0.7);
-});
-
-it("takes parts, and the answers of workers are the same", async () => {
-  const worker = await WorkerPointCloud.create(positions, { workers: 2 });
-  const mask = Uint8Array.from({ length: 10_000 }, (_, i) => i % 2);
-  for (const options of [{}, { looks: 2 as const }, { within: { mask } }]) {
-    const asked = { ...size, ...options };
-    const here = cloud.panorama([1, 0.5, 0.2], asked);
-    expect(await worker.panorama([1, 0.5, 0.2], asked)).toEqual(here);
-    if ("within" in options) expect(here.indices.every((index) => index === SKY || index % 2 === 1)).toBe(true);
-  }
-  await expect(worker.panorama([0, 0, 0], { ...size, width: 0 })).rejects.toMatchObject({ code: "option" });
-  await worker.dispose();
 });
 
 it("refuses what has no panorama", () => {

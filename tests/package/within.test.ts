@@ -1,53 +1,11 @@
 import { expect, it } from "vitest";
 
-import { bumpySphere, expectRefusal, pointsAt, readyPackage } from "./support";
+import { bumpySphere, expectRefusal, readyPackage } from "./support";
 
 const { PointCloud } = await readyPackage();
 
 const positions = bumpySphere(5, 6000);
-const count = positions.length / 3;
 const from = [0.3, 0.8, 2.5];
-const box = [
-  [-0.7, -2, -0.3],
-  [2, 0.9, 2],
-] as const;
-const mask = Uint8Array.from({ length: count }, (_, i) => (i % 3 === 0 ? 0 : i % 256));
-
-/** The indices that take part, by the definition. */
-function chosen(within: { distance?: number; box?: typeof box; mask?: Uint8Array }): number[] {
-  return Array.from({ length: count }, (_, i) => i).filter((i) => {
-    const place = [...positions.subarray(3 * i, 3 * i + 3)];
-    const [x, y, z] = place.map((coordinate, axis) => coordinate - from[axis]!) as [number, number, number];
-    const isNear = within.distance === undefined || Math.sqrt(x * x + y * y + z * z) <= within.distance;
-    const [min, max] = within.box ?? [undefined, undefined];
-    const isInside = min === undefined || place.every((at, axis) => min[axis]! <= at && at <= max[axis]!);
-    return isNear && isInside && (within.mask === undefined || within.mask[i] !== 0);
-  });
-}
-
-const choices = [{ distance: 2 }, { box }, { mask }, { distance: 2.2, box, mask }, {}];
-
-it("the answer is that of a cloud of the chosen points alone", () => {
-  const cloud = new PointCloud(positions);
-  for (const within of choices) {
-    const indices = chosen(within);
-    const alone = new PointCloud(pointsAt(positions, indices));
-    for (const options of [{}, { exponent: 3 }, { looks: 3 as const, scores: true }]) {
-      const seen = cloud.visibleFrom(from, { ...options, within });
-      const expected = alone.visibleFrom(from, options);
-      expect(Array.from(seen.indices)).toEqual(Array.from(expected.indices, (i) => indices[i]));
-      expect([seen.radius, seen.exact]).toEqual([expected.radius, expected.exact]);
-      expect(seen.mask().length).toBe(count);
-      if (expected.scores !== undefined) {
-        expect(indices.map((i) => seen.scores![i])).toEqual(Array.from(expected.scores));
-      }
-    }
-    const mesh = cloud.reconstruct(from, { within }).triangles;
-    expect(mesh).toEqual(alone.reconstruct(from).triangles.map((i) => indices[i]!));
-    alone.dispose();
-  }
-  cloud.dispose();
-});
 
 it("choices that make no sense are refused", async () => {
   const between = (...corners: unknown[][]) => ({ box: corners });

@@ -110,7 +110,7 @@ async function readOne({ source, name }: NamedSource, size: ImageSize | undefine
 /** One file, or COLMAP's two. */
 async function filesOf(source: unknown): Promise<unknown[]> {
   const isList = Array.isArray(source) || typeTag(source) === "FileList";
-  const folder = isList ? Array.from<unknown>(source as ArrayLike<unknown>) : await filesIn(source);
+  const folder = isList ? Array.from(source as ArrayLike<unknown>, listed) : await filesIn(source);
   if (folder === undefined) return [source];
   const named = (name: string) => folder.find((file) => nameOf(file) === name);
   for (const names of [
@@ -128,6 +128,11 @@ async function filesOf(source: unknown): Promise<unknown[]> {
     isList ? "option" : "load",
     `${what} must hold cameras and images (.bin or .txt), transforms.json or calib.txt`,
   );
+}
+
+function listed(file: unknown): unknown {
+  if (typeof file === "string" || (typeof file === "object" && file !== null)) return file;
+  throw new HprError("option", `the list of files must hold files, got ${describe(file)}`);
 }
 
 /** The files in a folder; undefined if this is no folder. */

@@ -1,9 +1,11 @@
 import { describe, HprError } from "../base/errors.js";
+import { isNumberArray, plainNumbers } from "../base/typed-arrays.js";
 import type { FilledColumn, Values } from "../formats/numbers.js";
 import { contentOf, type WrittenFormat } from "../formats/write/content.js";
 import { lasParts } from "../formats/write/las.js";
 import { plyParts } from "../formats/write/ply.js";
-import { givenOptions, listener } from "../query/options.js";
+import { givenOptions, listener, ownOf } from "../query/options.js";
+import { isFloatArray } from "../query/positions.js";
 
 /** Points to write, as `readCloud` gives them. */
 export interface WritableCloud {
@@ -57,19 +59,19 @@ function readCloudToWrite(cloud: unknown) {
   if (typeof cloud !== "object" || cloud === null) {
     throw new HprError("option", `the cloud must have positions, got ${describe(cloud)}`);
   }
-  const { positions, colors, columns = {} } = cloud as WritableCloud;
-  if (!(positions instanceof Float32Array || positions instanceof Float64Array) || positions.length % 3 !== 0) {
-    throw new HprError(
-      "option",
-      `positions must be a Float32Array or Float64Array of x, y, z, got ${describe(positions)}`,
-    );
+  const [given, colors, columns = {}] = ["positions", "colors", "columns"].map((name) => ownOf(cloud, name));
+  const positions = numbersIn(given);
+  if (!isFloatArray(positions) || positions.length % 3 !== 0) {
+    throw new HprError("option", `positions must be a Float32Array or Float64Array of x, y, z, got ${describe(given)}`);
+  }
+  if (typeof columns !== "object" || columns === null) {
+    throw new HprError("option", `columns must be an object, got ${describe(columns)}`);
   }
   const count = positions.length / 3;
   const checked = (name: string, values: unknown, length: number) => {
-    if (!ArrayBuffer.isView(values) || (values as Values).length !== length || values instanceof BigInt64Array) {
-      throw new HprError("option", `${name} must be a typed array of ${length} numbers, got ${describe(values)}`);
-    }
-    return values as Values;
+    const numbers = numbersIn(values);
+    if (numbers?.length === length) return numbers as Values;
+    throw new HprError("option", `${name} must be a typed array of ${length} numbers, got ${describe(values)}`);
   };
   const fields: FilledColumn[] = Object.entries(columns).map(([name, values]) => ({
     name,
@@ -84,12 +86,18 @@ function readCloudToWrite(cloud: unknown) {
   };
 }
 
+/** The numbers of a typed array. Undefined for anything else, and if their memory is gone. */
+function numbersIn(values: unknown) {
+  return isNumberArray(values) ? plainNumbers(values) : undefined;
+}
+
 function indicesIn(given: unknown, count: number): Uint32Array {
   if (given === undefined) return Uint32Array.from({ length: count }, (_, i) => i);
-  if (!(given instanceof Uint32Array)) {
+  const indices = numbersIn(given);
+  if (!(indices instanceof Uint32Array)) {
     throw new HprError("option", `indices must be a Uint32Array, got ${describe(given)}`);
   }
-  const wrong = given.find((index) => index >= count);
+  const wrong = indices.find((index) => index >= count);
   if (wrong !== undefined) throw new HprError("option", `indices has ${wrong}, and the cloud has ${count} points`);
-  return given;
+  return indices;
 }

@@ -37,10 +37,9 @@ function numbers(distance = Infinity, { min, max }: { min: number[]; max: number
 }
 
 function readBox(box: unknown, dimension: number): { min: number[]; max: number[] } {
-  const corners = isList(box) && box.length === 2 ? [box[0], box[1]] : [];
-  const lists = corners.map((corner) => (isList(corner) ? Array.from(corner) : []));
-  const [min, max] = lists.map((list) => list.filter((x) => typeof x === "number"));
-  if (min?.length !== dimension || max?.length !== dimension || lists.some((list) => list.length !== dimension)) {
+  const [min, max] = (listOf(box, 2) ?? []).map((corner) => listOf(corner, dimension));
+  const areNumbers = (list?: unknown[]): list is number[] => list?.every((x) => typeof x === "number") === true;
+  if (!areNumbers(min) || !areNumbers(max)) {
     throw new HprError("option", `within box must be [min, max], each with ${dimension} numbers, got ${describe(box)}`);
   }
   if (!min.every((least, axis) => least <= max[axis]!)) {
@@ -53,8 +52,10 @@ function readBox(box: unknown, dimension: number): { min: number[]; max: number[
   return { min, max };
 }
 
-function isList(value: unknown): value is ArrayLike<unknown> {
-  return typeof value === "object" && value !== null && "length" in value;
+/** The entries of a list of this length: nothing is read of a longer one, or of one whose memory is gone. */
+function listOf(value: unknown, length: number): unknown[] | undefined {
+  if (typeof value !== "object" || value === null || !("length" in value) || value.length !== length) return undefined;
+  return Array.from({ length }, (_, i) => (value as ArrayLike<unknown>)[i]);
 }
 
 /** A copy, so that later changes do not concern a request that waits. The core checks the length. */

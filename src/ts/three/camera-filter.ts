@@ -1,6 +1,6 @@
 import type { Camera } from "three";
 
-import { describe, HprError } from "../base/errors.js";
+import { HprError } from "../base/errors.js";
 import { addTag } from "../base/tag.js";
 import type { Visibility } from "../cloud/visibility.js";
 import { VisibilityMap } from "../cloud/visibility-map.js";
@@ -8,6 +8,7 @@ import { Events as Sender, Readiness } from "../follow/events.js";
 import { Follower, type Round } from "../follow/follower.js";
 import { type AnswerKind, stagesFor } from "../follow/options.js";
 import type { Seen } from "../follow/view.js";
+import { readViewpoint } from "../query/positions.js";
 import { type Cloud, see } from "../worker/followed-cloud.js";
 import { type FollowedCamera, FollowedCameras, inSpace, type Space } from "./cameras.js";
 import { type AskedOptions, changedSettings, type FilterSettings, readFilterOptions, withOption } from "./options.js";
@@ -278,23 +279,21 @@ export abstract class CameraFilter<Events extends FilterEvents> extends Sender<E
    * @throws HprError (as a rejection) `option` before the first `update` and for an orthographic camera, `viewpoint`,
    *   `disposed`, and the error of a refused cloud.
    */
-  async sees({ x, y, z }: { readonly x: number; readonly y: number; readonly z: number }): Promise<boolean> {
-    if (![x, y, z].every(Number.isFinite)) {
-      throw new HprError("viewpoint", `the place must have finite numbers x, y and z, got ${describe([x, y, z])}`);
+  async sees(place: { readonly x: number; readonly y: number; readonly z: number }): Promise<boolean> {
+    const asked = readViewpoint(place, 3, "place") as [number, number, number];
+    const seat = this.cameras.last?.place;
+    if (seat === undefined || seat.isDirection) {
+      throw new HprError("option", "sees() needs an update with a perspective camera before");
     }
     while (this.cloud === undefined && !this.#isDisposed) {
       if (this.#refusal !== undefined) throw this.#refusal;
       await new Promise<void>((turn) => this.#turns.push(turn));
     }
     if (this.cloud === undefined) throw disposed();
-    const place = this.cameras.last?.place;
-    if (place === undefined || place.isDirection) {
-      throw new HprError("option", "sees() needs an update with a perspective camera before");
-    }
     const { scores: _, ...options } = this.settings.stages.at(-1)!.options;
     const { origin = [0, 0, 0] } = this.settings;
-    const target = inSpace(this.#object, [x, y, z]).map((value, axis) => value + origin[axis]!);
-    return (await this.cloud.sees(place.from, target, options))[0] === 1;
+    const target = inSpace(this.#object, asked).map((value, axis) => value + origin[axis]!);
+    return (await this.cloud.sees(seat.from, target, options))[0] === 1;
   }
 
   /** Draws everything as it was before, and frees the memory of the cloud. May be called twice. */

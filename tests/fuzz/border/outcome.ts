@@ -36,7 +36,7 @@ function codeOf(error: unknown): string {
 
 /** Only the numbers of an answer. Also checks that they do not contradict each other. */
 function plain(answer: unknown): unknown {
-  if (typeof answer !== "object" || answer === null || !("indices" in answer)) {
+  if (typeof answer !== "object" || answer === null || !("mask" in answer && "indices" in answer)) {
     return answer instanceof Float32Array ? [...answer] : answer;
   }
   const { indices, count, radius, exponent, evaluations, inversion, exact } = answer as Answer;
