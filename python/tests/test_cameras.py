@@ -248,7 +248,7 @@ IMAGE = np.zeros((48, 64))
         ("viewpoint", "finite", lambda: CLOUD.visibility_map(VIEWPOINT, origin=[0, 0, np.inf])),
         ("positions-length", "positions", lambda: CLOUD.visibility_map(VIEWPOINT).hides([[0, 0]])),
         ("option", "at least one station", lambda: CLOUD.calibrate([])),
-        ("option", "at least one station", lambda: CLOUD.calibrate(7)),
+        ("option", "stations must be a list", lambda: CLOUD.calibrate(7)),
         ("option", r"stations\[0\]", lambda: CLOUD.calibrate([7])),
         ("option", "integers", lambda: CLOUD.calibrate([{"viewpoint": VIEWPOINT, "indices": [[1], [2, 3]]}])),
         ("option", "viewpoint", lambda: CLOUD.calibrate([{"indices": [1]}])),
