@@ -174,26 +174,15 @@ class SeenBy(NamedTuple):
 
 def seen_by(length: int, views: list[tuple[CameraView, NDArray[np.float32]]]) -> SeenBy:
     """The `SeenBy` of views of a cloud of so many indices: of each, the `CameraView` and the directions to the camera."""
-    order, offsets = by_point(length, [view.indices for view, _ in views])
-    counts = [view.count for view, _ in views]
-    cameras = np.repeat(np.arange(len(views), dtype=np.uint32), counts)[order]
-    pixels = joined([view.pixels for view, _ in views], (0, 2))[order]
-    towards = joined([towards for _, towards in views], (0, 3))[order]
-    return SeenBy(offsets, cameras, pixels, towards, (length, len(views)))
-
-
-def by_point(length: int, lists: list[NDArray[np.uint32]]) -> tuple[NDArray[Any], NDArray[np.uint32]]:
-    """The order of the entries of several lists of indices by index, and where those of each index begin."""
-    indices = joined(lists, 0, np.uint32)
+    indices = np.concatenate([np.empty(0, np.uint32), *(view.indices for view, _ in views)])
     if len(indices) >= 2**32:
         raise refusal("too-large", f"{len(indices)} entries exceed the limit of {2**32 - 1}")
-    offsets = np.zeros(length + 1, np.uint32)
+    order, offsets = np.argsort(indices, kind="stable"), np.zeros(length + 1, np.uint32)
     np.cumsum(np.bincount(indices, minlength=length), out=offsets[1:])
-    return np.argsort(indices, kind="stable"), offsets
-
-
-def joined(arrays: list[Any], empty: Any, dtype: Any = np.float32) -> NDArray[Any]:
-    return np.concatenate(arrays) if arrays else np.empty(empty, dtype)
+    cameras = np.repeat(np.arange(len(views), dtype=np.uint32), [view.count for view, _ in views])[order]
+    pixels = np.concatenate([np.empty((0, 2), np.float32), *(view.pixels for view, _ in views)])[order]
+    towards = np.concatenate([np.empty((0, 3), np.float32), *(towards for _, towards in views)])[order]
+    return SeenBy(offsets, cameras, pixels, towards, (length, len(views)))
 
 
 def orient_normals(normals: ArrayLike, seen_by: SeenBy) -> NDArray[Any]:
