@@ -181,7 +181,7 @@ export class PointCloud {
    * @param direction x, y, z, not zero, of any length. Needs a cloud of dimension 3.
    * @throws HprError `viewpoint` for the direction, otherwise the same as {@link PointCloud.visibleFrom}.
    */
-  visibleFromDirection(direction: ArrayLike<number>, options?: VisibilityOptions): Visibility {
+  visibleFromDirection(direction: Viewpoint, options?: VisibilityOptions): Visibility {
     return this.#ask("visibleFromDirection", direction, options);
   }
 

@@ -8,13 +8,21 @@ import { readIndices, readViewpoint, type Viewpoint } from "./positions.js";
 import { refuseScores, VIEW_OPTIONS, viewSettings, type VisibilityOptions } from "./view-options.js";
 
 /** Where a scanner stood, and the points that it measured, by exactly one of `indices` and `mask`. */
-export interface Station {
+export type Station = {
+  /** x, y, z in the cloud's units. */
   viewpoint: Viewpoint;
-  /** The indices of its points. */
-  indices?: ArrayLike<number> | undefined;
-  /** One byte for each index of the cloud: not 0 for its points. */
-  mask?: Uint8Array | undefined;
-}
+} & (
+  | {
+      /** The indices of its points. */
+      indices: ArrayLike<number>;
+      mask?: undefined;
+    }
+  | {
+      indices?: undefined;
+      /** One byte for each index of the cloud: not 0 for its points. */
+      mask: Uint8Array;
+    }
+);
 
 /** How a cloud is to be asked, so that its scanners see the points that they measured. */
 export interface Calibration {

@@ -3,6 +3,7 @@ import { concatenated } from "../base/memory.js";
 import { PointCloud } from "../cloud/cloud.js";
 import type { MergeOptions } from "../cloud/merge.js";
 import type { Crs } from "../formats/las/crs.js";
+import type { Viewpoint } from "../query/positions.js";
 import { untilAborted } from "../worker/abort.js";
 import { openCopc } from "./copc.js";
 import {
@@ -195,7 +196,7 @@ export class Octree {
    *   (a node cannot be fetched, or is broken), `radius` (a point is farther than the radius),
    *   `not-initialised`, `too-large`, `internal`.
    */
-  visibleFrom(viewpoint: ArrayLike<number>, options?: OctreeViewOptions): AsyncGenerator<OctreeStep, void, undefined> {
+  visibleFrom(viewpoint: Viewpoint, options?: OctreeViewOptions): AsyncGenerator<OctreeStep, void, undefined> {
     this.#requireOpen();
     return this.#steps(viewRequest(viewpoint, options));
   }

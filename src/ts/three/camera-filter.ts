@@ -8,14 +8,14 @@ import { Events as Sender, Readiness } from "../follow/events.js";
 import { Follower, type Round } from "../follow/follower.js";
 import { type AnswerKind, stagesFor } from "../follow/options.js";
 import type { Seen } from "../follow/view.js";
-import { readViewpoint } from "../query/positions.js";
+import { readViewpoint, type Viewpoint } from "../query/positions.js";
 import { type Cloud, see } from "../worker/followed-cloud.js";
 import { type FollowedCamera, FollowedCameras, inSpace, type Space } from "./cameras.js";
 import { type AskedOptions, changedSettings, type FilterSettings, readFilterOptions, withOption } from "./options.js";
 
 /** An answer that is drawn. */
 export interface FilterChange {
-  /** How many points are drawn. For a map, which the graphics card tests the points against, that of the last answer. */
+  /** How many points are drawn; for a map, how many were drawn by the last answer. */
   count: number;
   /** The whole answer about the points of the cloud. Null for a map. */
   visibility: Visibility | null;
@@ -246,7 +246,7 @@ export abstract class CameraFilter<Events extends FilterEvents> extends Sender<E
    *
    * @param viewpoint x, y, z in the cloud, if the visible points are those of another place than the camera's.
    */
-  update(camera: Camera, viewpoint?: ArrayLike<number>): void {
+  update(camera: Camera, viewpoint?: Viewpoint): void {
     if (this.#isDisposed) return;
     let isChanged;
     try {

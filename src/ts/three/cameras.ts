@@ -4,7 +4,7 @@ import { describe, HprError } from "../base/errors.js";
 import { type FollowSettings, REST, type Stage, stagesFor } from "../follow/options.js";
 import { FollowedView } from "../follow/view.js";
 import type { Place } from "../query/place.js";
-import { readViewpoint } from "../query/positions.js";
+import { readViewpoint, type Viewpoint } from "../query/positions.js";
 import type { VisibilityOptions } from "../query/view-options.js";
 
 /** One camera's view of a cloud, and how far its answers have come. */
@@ -71,7 +71,7 @@ export class FollowedCameras {
   }
 
   /** Reads the camera's place in the cloud, or takes the given one. Returns whether it has moved. */
-  look(followed: FollowedCamera, object: Space, viewpoint?: ArrayLike<number>): boolean {
+  look(followed: FollowedCamera, object: Space, viewpoint?: Viewpoint): boolean {
     const { place, rounding } = viewpoint
       ? { place: { from: readViewpoint(viewpoint, 3), isDirection: false }, rounding: 0 }
       : placeOf(followed.camera, object, this.#settings.origin);

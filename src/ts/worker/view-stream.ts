@@ -13,7 +13,7 @@ import {
 import { type AskedStage, FollowedView } from "../follow/view.js";
 import { type CloudSize, givenOptions, listener } from "../query/options.js";
 import type { Place } from "../query/place.js";
-import { readViewpoint } from "../query/positions.js";
+import { readViewpoint, type Viewpoint } from "../query/positions.js";
 import { VIEW_OPTIONS, type VisibilityOptions } from "../query/view-options.js";
 
 /** The options of a {@link ViewStream}: those of each view, and how answers follow the viewpoint. */
@@ -107,7 +107,7 @@ export class ViewStream implements AsyncIterable<StreamedAnswer> {
    * @param viewpoint x, y, z in the cloud's units.
    * @throws HprError `viewpoint` for a value that is not an array of as many numbers as the cloud has dimensions.
    */
-  look(viewpoint: ArrayLike<number>): void {
+  look(viewpoint: Viewpoint): void {
     this.#want({ from: readViewpoint(viewpoint, this.#cloud.dimension), isDirection: false });
   }
 
@@ -116,7 +116,7 @@ export class ViewStream implements AsyncIterable<StreamedAnswer> {
    *
    * @throws HprError `viewpoint` for a value that is not an array of three numbers.
    */
-  lookAlong(direction: ArrayLike<number>): void {
+  lookAlong(direction: Viewpoint): void {
     this.#want({ from: readViewpoint(direction, 3, "direction"), isDirection: true });
   }
 

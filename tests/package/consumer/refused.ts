@@ -7,6 +7,9 @@ import type { HiddenPointNodesFilterOptions } from "hidden-point-removal/nodes";
 declare const cloud: PointCloud;
 declare const remote: WorkerPointCloud;
 const eye = [0, 0, 5];
+// A vector of three.js, for example.
+declare const vector: { x: number; y: number; z: number };
+remote.follow().look(vector);
 
 export const allowed: VisibilityOptions[] = [
   {},
@@ -32,6 +35,8 @@ export async function refused(): Promise<void> {
   cloud.coverage([eye], { thickness: 0.1 });
   // @ts-expect-error No such option.
   cloud.visibleFrom(eye, { look: 3 });
+  // @ts-expect-error Nobody knows what this station has measured.
+  cloud.calibrate([{ viewpoint: eye }]);
   // @ts-expect-error Two ways to choose R, in a worker.
   await remote.visibleFrom(eye, { radius: 7, exponent: 3, latest: true });
   // @ts-expect-error Two ways to choose R, for a filter.
