@@ -244,11 +244,11 @@ describe("combinations without a meaning", () => {
     [["in.xyz"], /--from X,Y,Z is needed: the viewpoint; or --viewpoints or --cameras FILE/],
     [[...FROM, "--cameras", "c.json"], /--from and --cameras exclude each other/],
     [[...FROM, "--viewpoints", "places.csv"], /--from and --viewpoints exclude each other/],
-    [[...FROM, "--radius", "9", "--exponent", "2"], /radius and exponent exclude each other/],
-    [[...FROM, "--radius", "9", "--exponent", "auto"], /radius and exponent exclude each other/],
-    [[...FROM, ...LOOKS, "--radius", "9"], /looks and radius exclude each other/],
-    [[...FROM, ...LOOKS, "--exponent", "auto"], /looks and exponent exclude each other/],
-    [[...FROM, ...LOOKS, "--inversion", "power:2"], /looks and inversion exclude each other/],
+    [[...FROM, "--radius", "9", "--exponent", "2"], /--radius and --exponent exclude each other/],
+    [[...FROM, "--radius", "9", "--exponent", "auto"], /--radius and --exponent exclude each other/],
+    [[...FROM, ...LOOKS, "--radius", "9"], /--looks and --radius exclude each other/],
+    [[...FROM, ...LOOKS, "--exponent", "auto"], /--looks and --exponent exclude each other/],
+    [[...FROM, ...LOOKS, "--inversion", "power:2"], /--looks and --inversion exclude each other/],
     [[...FROM, "--inversion", "power:2", "--exponent", "2"], /--exponent cannot be combined with inversion power/],
     [[...FROM, "--inversion", "power:2", "--radius", "opposite"], /--radius "opposite" cannot be combined with/],
     [
@@ -280,7 +280,9 @@ describe("combinations without a meaning", () => {
     [[...FROM, "--surface", "rough"], /--surface must be "auto", "clean", "noisy" or "layered", got "rough"/],
     [[...FROM, "--looks", "0", "--thickness", "1"], /--thickness can be given only with looks/],
     [[...FROM, "--within", "1,2"], /--within needs a distance, or X,Y,Z,X,Y,Z/],
-    [[...FROM, "--vote", "8"], /Unknown option '--vote'/],
+    [[...FROM, "--vote", "8"], /Unknown option '--vote'$/m],
+    [[...FROM, "--from", "1,2,3"], /--from is given twice: several viewpoints stand in a file, --viewpoints FILE/],
+    [[...FROM, "--looks", "3", "--looks", "2"], /--looks is given twice/],
     [[...FROM, ...LOOKS, "--score-threshold", "2"], /--score-threshold needs a number from 0 to 1/],
   ])("%j", (args, says) => {
     expect(refused(...args)).toMatch(says);

@@ -106,7 +106,8 @@ type Values = ReturnType<typeof parsed>["values"];
 function parsed(args: string[]) {
   const texts = FLAGS.map(([name]) => [name, { type: "string" }] as const);
   try {
-    return parseArgs({
+    const found = parseArgs({
+      tokens: true,
       args: args.flatMap(joinedToNegative(args)),
       allowPositionals: true,
       options: {
@@ -128,9 +129,14 @@ function parsed(args: string[]) {
         version: { type: "boolean" },
       },
     });
+    const names = found.tokens.flatMap((token) => (token.kind === "option" ? token.name : []));
+    const twice = names.find((name, i) => names.indexOf(name) !== i);
+    if (twice === undefined) return found;
+    const way = twice === "from" ? ": several viewpoints stand in a file, --viewpoints FILE" : "";
+    throw new UsageProblem(`--${twice} is given twice${way}`);
   } catch (error) {
-    // The lines after the first one explain how such arguments are written in general.
-    throw new UsageProblem((error as Error).message.split("\n", 1)[0]);
+    // What follows the first sentence explains how such arguments are written in general.
+    throw error instanceof UsageProblem ? error : new UsageProblem((error as Error).message.split(/\.\s|\n/, 1)[0]);
   }
 }
 
@@ -165,7 +171,8 @@ function viewOptions(values: Values): VisibilityOptions {
     // A distance needs no viewpoint here, and no point is too far away.
     new PointCloud([0, 0, 0]).visibleFrom([0, 0, 0], asked);
   } catch (cause) {
-    throw cause instanceof HprError ? new UsageProblem(`--${cause.message}`, { cause }) : cause;
+    if (!(cause instanceof HprError)) throw cause;
+    throw new UsageProblem(`--${cause.message.replace(/ and (?=\w+ exclude)/, " and --")}`, { cause });
   }
   return options;
 }

@@ -23,7 +23,13 @@ export function converted(
 /** In words: what a file in another format lacks. */
 export function lost({ las, crs, leftOut = [], unread = [], positions }: PointFile, ending: string): string[] {
   const said = [...leftOut, ...unread];
-  if (ending === ".las") return [...said, `digits of coordinates beyond ${finestScale(positions).scale[0]}`];
+  if (ending === ".las") {
+    const scale = finestScale(positions).scale[0];
+    // A number near enough that its decimal digits are the same.
+    const isKept = (value: number) =>
+      !(Math.abs(Math.round(value / scale) * scale - value) > 4 * Number.EPSILON * Math.abs(value));
+    return positions.every(isKept) ? said : [...said, `digits of coordinates beyond ${scale}`];
+  }
   if (crs) said.push(`the coordinate system, but for its name ${crs.name}`);
   if (las && las.records.length > 0) said.push(`${las.records.length} × record of LAS`);
   return said;
