@@ -54,7 +54,7 @@ class Visibility:
         return self._cloud.positions[self.indices]
 
     def mask(self) -> NDArray[np.bool_]:
-        """One truth value for each index: True where the point is visible."""
+        """One truth value for each index: True where the point is visible. Polars filters by it."""
         mask = np.zeros(self._length, bool)
         mask[self.indices] = True
         return mask
