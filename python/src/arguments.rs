@@ -151,12 +151,12 @@ pub fn camera(given: &Bound<'_, PyAny>, name: &str) -> PyResult<Camera> {
 }
 
 /// What the reader `camera` gives.
-type Told = (bool, [f64; 16], bool, String, Option<Vec<f64>>, [f64; 8]);
+type Fields = (bool, [f64; 16], bool, String, Option<Vec<f64>>, [f64; 8]);
 
-fn made_camera(told: &Bound<'_, PyAny>, name: &str) -> PyResult<Camera> {
-    let py = told.py();
+fn made_camera(fields: &Bound<'_, PyAny>, name: &str) -> PyResult<Camera> {
+    let py = fields.py();
     let wrong = |message: String| problem(py, "viewpoint", format!("{name}: {message}"));
-    let (is_inverse, pose, is_opengl, model, distortion, lens): Told = told.extract()?;
+    let (is_inverse, pose, is_opengl, model, distortion, lens): Fields = fields.extract()?;
     let [fx, fy, cx, cy, width, height, near, far] = lens;
     let mut camera = Camera::new(fx, fy, cx, cy, width, height);
     (camera.near, camera.far) = (near, far);

@@ -117,7 +117,7 @@ impl PointCloud {
         progress: &mut dyn FnMut(f64),
     ) -> Result<Self, Error> {
         let len = checked_len(positions.len())?;
-        let (bounds, skipped) = survey(positions, non_finite)?;
+        let (bounds, skipped) = bounds_of(positions, non_finite)?;
         progress(SURVEYED);
         let curve = HilbertCurve::new(&bounds);
         let sequence = Sequence::sorted(positions, 0, len - skipped, &curve)?;
@@ -166,7 +166,7 @@ impl PointCloud {
 
     pub(crate) fn add(&mut self, positions: Given) -> Result<(), Error> {
         let len = checked_len(self.len.saturating_add(positions.len()))?;
-        let (mut bounds, skipped) = survey(positions, self.non_finite)?;
+        let (mut bounds, skipped) = bounds_of(positions, self.non_finite)?;
         let finite = positions.len() - skipped;
         if finite > 0 {
             bounds.union(&self.bounds);
@@ -235,7 +235,7 @@ impl PointCloud {
             self.kept = Kept::default();
             return Ok(());
         }
-        let (bounds, _) = survey(rest.points.as_given(), NonFinite::Error)?;
+        let (bounds, _) = bounds_of(rest.points.as_given(), NonFinite::Error)?;
         let curve = HilbertCurve::new(&bounds);
         if curve == HilbertCurve::new(&self.bounds) {
             self.replace(rest, bounds)?;
@@ -385,7 +385,7 @@ impl fmt::Debug for PointCloud {
 }
 
 /// Checks every coordinate; returns the box of the finite points and how many are not.
-fn survey(positions: Given, non_finite: NonFinite) -> Result<(Bounds, usize), Error> {
+fn bounds_of(positions: Given, non_finite: NonFinite) -> Result<(Bounds, usize), Error> {
     let mut bounds = Bounds::EMPTY;
     let mut bad = 0;
     let mut first = 0;

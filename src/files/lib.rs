@@ -140,7 +140,7 @@ pub extern "C" fn bytes_at() -> *const u8 {
 /// Says how the points of a LAZ file are compressed.
 #[unsafe(no_mangle)]
 pub extern "C" fn begin_laz(format: usize, row: usize, version: u32) -> i32 {
-    told(|reading| {
+    stepped(|reading| {
         reading.laz = Some(Laz::new(format, row, version)?);
         Ok(0)
     })
@@ -149,7 +149,7 @@ pub extern "C" fn begin_laz(format: usize, row: usize, version: u32) -> i32 {
 /// Reads the table of chunks from the bytes in `room`: for each chunk, the numbers are its points and its bytes.
 #[unsafe(no_mangle)]
 pub extern "C" fn chunk_table(has_points: bool) -> i32 {
-    told(|reading| {
+    stepped(|reading| {
         reading.numbers = laz::table(&reading.bytes, has_points)?;
         Ok(reading.numbers.len() / 2)
     })
@@ -158,7 +158,7 @@ pub extern "C" fn chunk_table(has_points: bool) -> i32 {
 /// Begins with the chunk in `room`. Returns how many points it holds.
 #[unsafe(no_mangle)]
 pub extern "C" fn begin_chunk(points: usize) -> i32 {
-    told(|reading| {
+    stepped(|reading| {
         let laz = reading.laz.as_ref().ok_or("no LAZ file was begun")?;
         let chunk = laz.chunk(std::mem::take(&mut reading.bytes), points)?;
         let points = chunk.points;
@@ -170,14 +170,14 @@ pub extern "C" fn begin_chunk(points: usize) -> i32 {
 /// Decompresses the next points of the chunk. Returns how many there are; 0 after the last one.
 #[unsafe(no_mangle)]
 pub extern "C" fn next_points() -> i32 {
-    told(|reading| {
+    stepped(|reading| {
         let chunk = reading.chunk.as_mut().ok_or("no chunk was begun")?;
         chunk.read(&mut reading.bytes)
     })
 }
 
 /// Runs a step that has all bytes that it needs.
-fn told(step: impl FnOnce(&mut Reading) -> Result<usize, String>) -> i32 {
+fn stepped(step: impl FnOnce(&mut Reading) -> Result<usize, String>) -> i32 {
     READING.with_borrow_mut(|reading| match step(reading) {
         Ok(count) => count as i32,
         Err(says) => {

@@ -107,7 +107,7 @@ impl DepthMap {
             return Ok(());
         };
         // All maps of a view have cells of one size, whatever part of the cloud they are for.
-        let (extents, wanted_sides) = survey(flipped, wanted);
+        let (extents, wanted_sides) = extents_of(flipped, wanted);
         let Some(cell) = cell_size(&extents, flipped.len()) else {
             return Ok(());
         };
@@ -416,7 +416,7 @@ struct Extents {
 }
 
 /// The extents of all points, and the sides' extents of the wanted ones.
-fn survey(flipped: &Flipped, wanted: &dyn Fn(u32) -> bool) -> (Extents, Sides) {
+fn extents_of(flipped: &Flipped, wanted: &dyn Fn(u32) -> bool) -> (Extents, Sides) {
     let nowhere: Sides = [[[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]]; 6];
     let mut wanted_sides = nowhere;
     let mut extents = Extents {
