@@ -26,7 +26,7 @@ export {
   type PosedCamera,
 } from "./query/cameras.js";
 export type { Calibration, Station } from "./query/calibration.js";
-export type { ViewpointOrCamera } from "./query/seats.js";
+export type { ViewpointOrCamera } from "./query/camera.js";
 export { orientNormals } from "./query/orient-normals.js";
 export type { CoverageOptions, Placement, PlacementOptions, SeenBy } from "./query/surveys.js";
 export type { Cone, SurfaceKind, Within, Without } from "./query/option-types.js";

@@ -1,7 +1,6 @@
 /// <reference lib="esnext.disposable" preserve="true" />
-import { addDisposeSymbol } from "./base/dispose-symbol.js";
+import { addDisposeSymbol, addTag } from "./base/objects.js";
 import { describe, HprError } from "./base/errors.js";
-import { addTag } from "./base/tag.js";
 import { HeldCloud, type OperatorBindings } from "./cloud/held-cloud.js";
 import { type Visibility as FullVisibility, VisibilityAnswer } from "./cloud/visibility.js";
 import { type Binary, compiledOnce, compileOwn, type InitInput, type SyncInitInput } from "./instance/compile.js";

@@ -1,7 +1,7 @@
 // Reads a file in this process: once like the command does, and once like the page does.
 import type { ChosenColumns } from "../../src/ts/formats/axes";
 import { FormatProblem } from "../../src/ts/formats/problem";
-import { readPoints } from "../../src/ts/cli/formats/formats";
+import { readPoints } from "../../src/ts/cli/formats";
 import { LoadProblem } from "../../www/loaders/protocol";
 import { readCloud } from "../../www/loaders/read";
 

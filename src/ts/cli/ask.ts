@@ -4,7 +4,7 @@ import type { SeenBy } from "../query/surveys.js";
 import type { VisibilityOptions } from "../query/view-options.js";
 import { WorkerPointCloud } from "../worker.js";
 import { defaultWorkers } from "../worker/workers.js";
-import type { PointFile } from "./formats/frames.js";
+import type { PointFile } from "./formats.js";
 import { readImage } from "./images.js";
 import type { NamedCamera, NamedSeat } from "./places.js";
 

@@ -4,8 +4,7 @@ import { realpath, stat } from "node:fs/promises";
 import { basename, dirname, join, resolve, extname } from "node:path";
 import { linkedFrom, STANDARD_OUTPUT } from "./files.js";
 import { UsageProblem } from "./values.js";
-import { CONVERTED } from "./formats/convert.js";
-import { endingOf, FORMATS, writtenAs } from "./formats/formats.js";
+import { CONVERTED, endingOf, FORMATS, writtenAs } from "./formats.js";
 
 interface Names {
   inputs: readonly string[];

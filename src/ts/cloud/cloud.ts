@@ -2,8 +2,7 @@
 import type { ChosenRadius, Found, Panorama } from "../query/queries.js";
 import { HprError } from "../base/errors.js";
 import { CoreCloud } from "./held-cloud.js";
-import { addDisposeSymbol } from "../base/dispose-symbol.js";
-import { addTag } from "../base/tag.js";
+import { addDisposeSymbol, addTag } from "../base/objects.js";
 import { type MethodName, readQuestion } from "./methods.js";
 import { requireInstance } from "../instance/instance.js";
 import {
@@ -16,7 +15,7 @@ import {
   type PointCloudOptions,
 } from "../query/options.js";
 import type { Positions, Viewpoint } from "../query/positions.js";
-import type { ImageCamera } from "../query/camera.js";
+import type { ImageCamera, ViewpointOrCamera } from "../query/camera.js";
 import type {
   IlluminationOptions,
   PanoramaOptions,
@@ -25,7 +24,6 @@ import type {
 } from "../query/option-rows.js";
 import type { Calibration, Station } from "../query/calibration.js";
 import type { SurfaceKind } from "../query/option-types.js";
-import type { ViewpointOrCamera } from "../query/seats.js";
 import {
   type CoverageOptions,
   type Placement,

@@ -1,6 +1,5 @@
 /// <reference lib="esnext.disposable" preserve="true" />
-import { addDisposeSymbol } from "../base/dispose-symbol.js";
-import { addTag } from "../base/tag.js";
+import { addDisposeSymbol, addTag } from "../base/objects.js";
 import { HprError } from "../base/errors.js";
 import { type Bindings, type Instance, requireInstance } from "../instance/instance.js";
 import { type Positions, readPositions, readViewpoint, type Viewpoint } from "../query/positions.js";

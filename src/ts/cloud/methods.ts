@@ -2,7 +2,7 @@ import { describe, HprError, typeTag } from "../base/errors.js";
 import { allocating } from "../base/memory.js";
 import { plainView, typedArrayType } from "../base/typed-arrays.js";
 import { CALIBRATION_ROWS, calibrationAnswer, calibrationQuery } from "../query/calibration.js";
-import { isCamera, readCamera } from "../query/camera.js";
+import { isCamera, isCameraSeat, readCamera, readSeats } from "../query/camera.js";
 import {
   type IlluminationOptions,
   LIGHT_ROWS,
@@ -27,7 +27,6 @@ import {
 } from "../query/options.js";
 import { packed, readPositions, readViewpoint, readViewpoints } from "../query/positions.js";
 import type { Answers, Query, QueryKind } from "../query/queries.js";
-import { isCameraSeat, readSeats } from "../query/seats.js";
 import { hasScores, refuseScores, ruleSettings, viewSettings } from "../query/view-options.js";
 import { CameraAnswer, ReconstructionAnswer, VisibilityAnswer } from "./visibility.js";
 import { VisibilityMap } from "./visibility-map.js";

@@ -1,4 +1,4 @@
-import { addTag } from "../base/tag.js";
+import { addTag } from "../base/objects.js";
 import { HprError } from "../base/errors.js";
 import type { Answers } from "../query/queries.js";
 import { type Positions, readPositions } from "../query/positions.js";

@@ -1,13 +1,19 @@
 import type { Camera } from "three";
 
 import { allocating } from "../base/memory.js";
-import { override } from "../base/override.js";
+import { override } from "../base/objects.js";
 import type { VisibilityMap } from "../cloud/visibility-map.js";
 import type { NodesDrawing } from "../nodes/gathered.js";
 import { withTest } from "../three/map-shader.js";
 import { DIMMED } from "../three/options.js";
-import { Tile } from "./viewer.js";
-import type { Octree, OctreeNode, PotreeRenderer, PotreeShader, PotreeViewer } from "./viewer.js";
+import {
+  type Octree,
+  type OctreeNode,
+  type PotreeRenderer,
+  type PotreeShader,
+  type PotreeViewer,
+  Tile,
+} from "./viewer.js";
 
 /**
  * What `hprMode` is: all points are drawn; the map decides; the last answer does, which has one byte for each point.

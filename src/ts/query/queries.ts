@@ -1,6 +1,5 @@
-import type { CameraNumbers } from "./camera.js";
+import type { CameraNumbers, Seat } from "./camera.js";
 import type { ResolvedInversion, SurfaceKind } from "./option-types.js";
-import type { Seat } from "./seats.js";
 import type { ViewSettings } from "./view-options.js";
 
 /**

@@ -4,11 +4,10 @@ import { allocating } from "../base/memory.js";
 import { isNumberArray, plainNumbers } from "../base/typed-arrays.js";
 import { freeCloud } from "../instance/engine.js";
 import { type Bindings, type Instance, requireInstance } from "../instance/instance.js";
-import { INVERTED } from "./camera.js";
+import { INVERTED, isCameraSeat, readCameras, readSeats, type Seat } from "./camera.js";
 import { type CoverageOptions, MANY_ROWS, PLACEMENT_ROWS, type PlacementOptions } from "./option-rows.js";
 import { type Checked, requireSpace, type Rows } from "./options.js";
 import { MAX_LENGTH } from "./positions.js";
-import { isCameraSeat, readCameras, readSeats, type Seat } from "./seats.js";
 import { hasScores, refuseScores, type ViewSettings, viewSettings } from "./view-options.js";
 
 export type { CoverageOptions, PlacementOptions };

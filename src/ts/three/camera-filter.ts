@@ -1,7 +1,7 @@
 import type { Camera } from "three";
 
 import { HprError } from "../base/errors.js";
-import { addTag } from "../base/tag.js";
+import { addTag } from "../base/objects.js";
 import type { Visibility } from "../cloud/visibility.js";
 import { VisibilityMap } from "../cloud/visibility-map.js";
 import { Events as Sender, Readiness } from "../follow/events.js";

@@ -1,6 +1,6 @@
 import { type DataTexture, type IUniform, type Material, Matrix3, Vector3, Vector4, type WebGLRenderer } from "three";
 
-import { override } from "../base/override.js";
+import { override } from "../base/objects.js";
 import { withTest } from "./map-shader.js";
 
 /** The uniforms that a patched material has. They are set for each object, right before it is drawn. */

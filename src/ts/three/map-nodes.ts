@@ -15,7 +15,7 @@ import {
 import type { Node, NodeBuilder } from "three/webgpu";
 
 import { GLSL, WGSL } from "../cloud/visibility-shader.js";
-import { override } from "../base/override.js";
+import { override } from "../base/objects.js";
 import { MapPatch, patching } from "./map-material.js";
 
 type Patched = Material & { vertexNode?: Node<"vec4"> | null };

@@ -12,7 +12,7 @@ import {
 } from "three";
 
 import type { VisibilityMap } from "../cloud/visibility-map.js";
-import { override } from "../base/override.js";
+import { override } from "../base/objects.js";
 import { type MapPatch, patchMaterial, type PatchMaterial } from "./map-material.js";
 
 const WIDTH = 256;

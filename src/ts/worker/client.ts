@@ -1,7 +1,5 @@
-/// <reference lib="esnext.disposable" preserve="true" />
 import type { ChosenRadius, Panorama } from "../query/queries.js";
-import { addDisposeSymbol } from "../base/dispose-symbol.js";
-import { addTag } from "../base/tag.js";
+import { addDisposeSymbol, addTag } from "../base/objects.js";
 import { HprError } from "../base/errors.js";
 import { engine } from "../instance/own-engine.js";
 import { initFrom } from "../instance/start.js";
@@ -14,10 +12,11 @@ import {
   type CloudSize,
   flag,
   givenOptions,
-  readOptions,
   integer,
+  listener,
   pick,
   type PointCloudOptions,
+  readOptions,
 } from "../query/options.js";
 import type { Place } from "../query/place.js";
 import { isFloatArray, type Positions, readIndices, readPositions, type Viewpoint } from "../query/positions.js";
@@ -26,13 +25,14 @@ import type { SurfaceKind } from "../query/option-types.js";
 import type { PanoramaOptions } from "../query/option-rows.js";
 import type { RadiusRule, VisibilityOptions } from "../query/view-options.js";
 import type { PointCloud } from "../cloud/cloud.js";
-import { METHODS, type MethodName, readQuestion } from "../cloud/methods.js";
+import { type MethodName, METHODS, readQuestion } from "../cloud/methods.js";
 import type { ScoredIf } from "../cloud/visibility.js";
 import { abortError, readSignal, reasonOf, untilAborted } from "./abort.js";
-import { type Progress, readProgress } from "./progress.js";
 import { RequestQueue } from "./request-queue.js";
 import { ViewStream, type ViewStreamOptions } from "./view-stream.js";
 import { MAX_WORKERS } from "./workers.js";
+
+/// <reference lib="esnext.disposable" preserve="true" />
 
 /** How a cloud is sent to its worker. */
 export interface WorkerPointCloudOptions extends PointCloudOptions {
@@ -370,4 +370,30 @@ function readPlacement(given: Record<string, unknown>): number | "shared" {
     throw new HprError("option", "shared and workers exclude each other; give one of the two");
   }
   return "shared";
+}
+
+/** Tells a listener the progress of a task. The numbers only grow. */
+export class Progress {
+  readonly #listener: (fraction: number) => void;
+  #last = -1;
+
+  constructor(listener: (fraction: number) => void) {
+    this.#listener = listener;
+  }
+
+  at(fraction: number): void {
+    if (fraction > this.#last) {
+      this.#last = fraction;
+      // This runs in a task of its own: an error of the listener must not disturb the caller.
+      queueMicrotask(() => {
+        this.#listener(fraction);
+      });
+    }
+  }
+}
+
+/** The option `onProgress`. */
+export function readProgress(given: Record<string, unknown>): Progress | undefined {
+  const told = listener(given, "onProgress");
+  return told && new Progress(told as (fraction: number) => void);
 }

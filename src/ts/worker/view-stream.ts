@@ -1,4 +1,4 @@
-import { addTag } from "../base/tag.js";
+import { addTag } from "../base/objects.js";
 import { HprError } from "../base/errors.js";
 import type { Visibility } from "../cloud/visibility.js";
 import { Follower, type Round } from "../follow/follower.js";
