@@ -67,8 +67,8 @@ const LESSON: Step = {
   name: "how it works",
   act: async (page) => {
     await page.keyboard.press("Escape");
-    await page.getByRole("button", { name: "How it works" }).click();
-    await page.locator("#how [data-say]:not(:empty)").waitFor();
+    await page.locator(".how").evaluate((button: HTMLElement) => button.click());
+    await page.locator("#how [role=status]:not(:empty)").waitFor();
   },
 };
 
@@ -76,7 +76,7 @@ const JUDGMENT: Step = {
   name: "how right it is",
   act: async (page) => {
     await page.keyboard.press("Escape");
-    await page.getByRole("button", { name: "How right is it?" }).click();
+    await page.locator(".right").evaluate((button: HTMLElement) => button.click());
     await page.locator("#right canvas").first().waitFor();
   },
 };

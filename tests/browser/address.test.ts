@@ -54,7 +54,7 @@ test("?src opens a file from the web", async () => {
   expect(now.total).toBe(700);
   expect(now.viewpoint).toEqual([0, 0, 9]);
   expect(now).toMatchObject(await answerInNode(positions, now));
-  expect(await page.locator("#own").textContent()).toBe("ball.ply");
+  expect(await page.locator("#panel .credit").textContent()).toContain("ball.ply");
 });
 
 test("a plain sentence names each parameter of the address that cannot be met", async () => {

@@ -1,6 +1,5 @@
 import { expect, test } from "vitest";
-import { captionOf, foundBy, sentenceOf, type TimedView } from "../../www/view/inquiry.js";
-import { addStyle } from "./site.js";
+import { captionOf, sentenceOf, type TimedView } from "../../www/view/inquiry.js";
 import {
   answerInNode,
   drag,
@@ -103,15 +102,12 @@ test("hidden points are off, dimmed or shown, and the change asks nothing", asyn
 test("a frozen viewpoint stays while the camera flies around, until it is released", async () => {
   const page = await openReady(SAMPLE);
   const before = await settled(page);
-  const freeze = page.getByRole("button", { name: "Freeze viewpoint" });
   const unfrozen = await picture(page);
-  await freeze.click();
-  expect(await freeze.getAttribute("aria-pressed")).toBe("true");
-  expect(await freeze.textContent()).toBe("Unfreeze viewpoint");
-  // The mark at the viewpoint is visible only from another place. Until then, a sign says that the viewpoint is frozen.
-  expect(await page.locator("#sign-frozen").isVisible()).toBe(true);
-  await addStyle(page, "#signs { visibility: hidden }");
-  expect(await differentPixels(unfrozen, await picture(page))).toBe(0);
+  await page.locator("#view").press("v");
+  // The mark at the viewpoint is visible only from another place.
+  await page.locator("#view").blur();
+  // With the mark, more of space is drawn: depths are rounded a little differently.
+  expect(await differentPixels(unfrozen, await picture(page))).toBeLessThan(10);
   await expect.poll(() => page.locator("#status").textContent()).toMatch(/can be seen from the frozen viewpoint/);
   const there = await picture(page);
   await drag(page, 200, 0);
@@ -120,7 +116,7 @@ test("a frozen viewpoint stays while the camera flies around, until it is releas
   expect(frozen.viewpoint).toEqual(before.viewpoint);
   expect(await differentPixels(there, await picture(page))).toBeGreaterThan(2000);
 
-  await freeze.click();
+  await page.locator("#view").press("v");
   const free = await refiltered(page, frozen);
   expect(free.viewpoint).not.toEqual(before.viewpoint);
   expect(free).toMatchObject(await answerInNode(dragonPositions("_res3"), free));
@@ -157,7 +153,7 @@ test("choosing the original up side gives the first view again", async () => {
   expect((await refiltered(page, turned)).viewpoint).toEqual(inside.viewpoint);
 });
 
-test("the sentence, the caption and the method have a singular, a plural and round numbers", () => {
+test("the sentence and the caption have a singular, a plural and round numbers", () => {
   const answer = (count: number) =>
     ({ visibility: { count }, question: { method: { looks: 3 } }, kind: "looks", milliseconds: 3 }) as TimedView;
   expect(sentenceOf(answer(1), 1, false)).toBe("1 of 1 point can be seen from here.");
@@ -165,9 +161,6 @@ test("the sentence, the caption and the method have a singular, a plural and rou
   expect(captionOf(answer(1), 1, false)).toBe("1 point. 1 can be seen from here.");
   expect(captionOf(answer(38_083), 100_250, false)).toBe("100,000 points. 38,000 can be seen from here.");
   expect(captionOf(answer(57_000), 100_250, true)).toBe("100,000 points. 57,000 can be seen from the eye.");
-  expect(foundBy(answer(1), 1)).toBe("100\u00a0% of the points, found by 3 looks in 3.0\u00a0ms.");
-  expect(foundBy(answer(1), 900)).toMatch(/^<\s1\s% of the points, /);
-  expect(foundBy(answer(899), 900)).toMatch(/^>\s99\s% of the points, /);
 });
 
 test("the sentence is announced once, after the movement", async () => {

@@ -59,7 +59,7 @@ export async function openInTurn(
       total: positions.length / 3,
       ...(await answerInNode(positions, now)),
     });
-    expect(await page.locator("#own").textContent()).toBe(name);
+    expect(await page.locator("#panel .credit").textContent()).toContain(name);
     expect(await page.locator("#message").isVisible(), name).toBe(false);
   }
 }

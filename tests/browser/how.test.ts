@@ -1,65 +1,63 @@
+import { hiddenPointRemoval, init } from "hidden-point-removal";
 import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
-import { asciiPly, ball } from "./clouds.js";
-import { openReady, PHONE, served } from "./support.js";
-import { differentPixels } from "./pixels.js";
+import { openReady, PHONE } from "./support.js";
 
-async function openLesson(page: Page): Promise<void> {
-  await page.getByRole("button", { name: "How it works" }).click();
-  await page.locator("#how [data-say]:not(:empty)").waitFor();
-}
-
-/** The numbers of the legend: seen, hidden, wrong, missed. */
-function counts(page: Page): Promise<number[]> {
+/** The points of the first picture, and which of them are drawn as seen. */
+function drawn(page: Page): Promise<{ points: number[]; seen: number[] }> {
   return page
-    .locator("#how .legend li")
-    .evaluateAll((rows) => rows.map((row) => Number(row.textContent.split(" ")[0]!.replaceAll(",", ""))));
+    .locator("#how svg")
+    .first()
+    .evaluate((svg) => {
+      const dots = [...svg.querySelectorAll("circle:not(.eye)")];
+      return {
+        points: dots.flatMap((dot) => ["cx", "cy"].map((name) => Number(dot.getAttribute(name)))),
+        seen: dots.flatMap((dot, i) => (dot.classList.contains("seen") ? [i] : [])),
+      };
+    });
 }
 
-async function choose(page: Page, exponent: string): Promise<number[]> {
-  const before = await page.locator("#how output").textContent();
-  await page.locator("#how-radius").fill(exponent);
-  await expect.poll(() => page.locator("#how output").textContent()).not.toBe(before);
-  return counts(page);
+const closed = async (page: Page) => {
+  await page.addInitScript(() => {
+    localStorage.removeItem("hidden-point-removal: tools");
+  });
+};
+
+for (const [where, options] of [
+  ["at 1000 pixels", {}],
+  ["on a phone", PHONE],
+] as const) {
+  test(`${where}, the lesson shows what the package sees for each radius`, async () => {
+    const page = await openReady("?sample=bunny", options, closed);
+    const asked: string[] = [];
+    page.on("request", (request) => asked.push(request.url()));
+    await page.getByRole("button", { name: "How it works" }).click();
+    const says = page.locator("#how [role=status]");
+    await says.filter({ hasText: "About the automatic radius" }).waitFor();
+    // It is loaded only now.
+    expect(asked.some((address) => address.includes("/assets/how-"))).toBe(true);
+    await init();
+    const slider = page.locator("#how-radius");
+    const counts: number[] = [];
+    for (const exponent of [await slider.inputValue(), "3", "0.2"]) {
+      await slider.fill(exponent);
+      const { points, seen } = await drawn(page);
+      const { indices } = hiddenPointRemoval(Float64Array.from(points), [0, 0], {
+        dimension: 2,
+        exponent: Number(exponent),
+      });
+      expect(seen).toEqual([...indices]);
+      expect(await says.textContent()).toContain(`${seen.length} of ${points.length / 2} points`);
+      counts.push(seen.length);
+    }
+    expect(await says.textContent()).toContain("Too small");
+    const [usual, large, small] = counts as [number, number, number];
+    expect(large).toBeGreaterThan(usual);
+    expect(small).toBeLessThan(usual);
+    await page.getByRole("button", { name: "Automatic radius" }).click();
+    expect((await drawn(page)).seen).toHaveLength(usual);
+    expect(await page.locator("#how").evaluate((dialog) => dialog.scrollWidth - dialog.clientWidth)).toBe(0);
+    await page.keyboard.press("Escape");
+    await expect.poll(() => page.locator("#how").count()).toBe(0);
+  });
 }
-
-test("the lesson shows the flip and its hull, and lights what another radius changes", async () => {
-  const page = await openReady("?sample=bunny");
-  const asked: string[] = [];
-  page.on("request", (request) => asked.push(request.url()));
-  await openLesson(page);
-  // It is loaded only now.
-  expect(asked.some((address) => address.includes("/assets/how-"))).toBe(true);
-  const flipped = page.locator('#how [data-picture="flipped"]');
-  const usual = await flipped.screenshot();
-  const [seen, hidden, wrong, missed] = await counts(page);
-  expect(seen! + hidden! + wrong! + missed!).toBe(1839);
-  expect(seen).toBeGreaterThan(500);
-
-  const large = await choose(page, "5");
-  expect(large[2]).toBeGreaterThan(wrong! + 500);
-  expect(await page.locator("#how [data-say]").textContent()).toContain("Too large");
-  expect(await differentPixels(usual, await flipped.screenshot())).toBeGreaterThan(1000);
-
-  const small = await choose(page, "0.1");
-  expect(small[3]).toBeGreaterThan(missed! + 300);
-  expect(await page.locator("#how [data-say]").textContent()).toContain("Too small");
-
-  await page.getByRole("button", { name: "Automatic radius" }).click();
-  await expect.poll(() => counts(page)).toEqual([seen, hidden, wrong, missed]);
-  await page.keyboard.press("Escape");
-  await expect.poll(() => page.locator("#how").count()).toBe(0);
-});
-
-test("on a phone, too, a radius that is too large is compared with the automatic one", async () => {
-  served.set("clouds/ball.ply", asciiPly(ball(5000)));
-  const page = await openReady("?src=clouds/ball.ply&looks=0", PHONE);
-  await page.getByRole("button", { name: "More controls" }).click();
-  await openLesson(page);
-  expect((await counts(page)).slice(2)).toEqual([0, 0]);
-  const large = await choose(page, "5");
-  expect(large[2]).toBeGreaterThan(100);
-  expect(await page.locator("#how .legend").textContent()).toContain("than with the automatic radius");
-  const overflow = await page.locator("#how").evaluate((dialog) => dialog.scrollWidth - dialog.clientWidth);
-  expect(overflow).toBe(0);
-});

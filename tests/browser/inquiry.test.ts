@@ -47,7 +47,8 @@ class Scene {
     for (let i = 0; i < length; i++) positions.set([CENTER[0] + (i % 2), CENTER[1], CENTER[2]], 3 * i);
     positions[0] = CENTER[0] - 1;
     this.points = new CloudPoints(prepareCloud({ positions, colors: null }).cloud, THEMES.dark);
-    this.inquiry = new Inquiry(this.#cloud(length), () => Promise.resolve(this.#cloud(length)), this.points);
+    const another = () => Promise.resolve(this.#cloud(length));
+    this.inquiry = new Inquiry(this.#cloud(length), another, this.points, positions);
   }
 
   static async of(length: number, settings: Partial<Settings> = {}): Promise<Scene> {

@@ -181,10 +181,10 @@ test("with the system's own colors the chosen options are visible", async () => 
       .locator("#hidden-points label", { hasText: text })
       .evaluate((label) => getComputedStyle(label).backgroundColor);
   expect(await background("Hide")).not.toBe(await background("Ghost"));
-  const freeze = page.getByRole("button", { name: "Freeze viewpoint" });
-  const color = () => freeze.evaluate((button) => getComputedStyle(button).backgroundColor);
+  const compare = page.locator("#tool-compare");
+  const color = () => compare.evaluate((button) => getComputedStyle(button).backgroundColor);
   const before = await color();
-  await freeze.click();
+  await compare.click();
   expect(await color()).not.toBe(before);
   // All pressed buttons have the same color.
   await unfold(page, "Advanced");
@@ -196,7 +196,7 @@ test("with the system's own colors the chosen options are visible", async () => 
         .filter((button) => button.checkVisibility())
         .map((button) => [button.textContent.trim(), getComputedStyle(button).backgroundColor]),
     );
-  expect(pressed.map(([name]) => name)).toEqual(expect.arrayContaining(["Pick", "Automatic", "Unfreeze viewpoint"]));
+  expect(pressed.map(([name]) => name)).toEqual(expect.arrayContaining(["Pick", "Automatic", "Compare"]));
   expect(new Set(pressed.map(([, background]) => background)).size).toBe(1);
 });
 

@@ -10,7 +10,7 @@ async function marks(page: Page) {
   return {
     measures: await page.locator("#marks .measure text").allTextContents(),
     labels: await page.locator("#label-list li span").allTextContents(),
-    stations: await page.locator("#stations-card tbody th").allTextContents(),
+    stations: await page.locator("#stations-card .list span").allTextContents(),
   };
 }
 

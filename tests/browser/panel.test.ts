@@ -9,7 +9,7 @@ async function open(page: Awaited<ReturnType<typeof openReady>>): Promise<string
     .evaluateAll((sections) => sections.map(({ firstElementChild }) => firstElementChild!.textContent));
 }
 
-test("the first screen has a file, samples, hidden points and freeze; all other settings are folded", async () => {
+test("the panel has a file, samples and hidden points; all other settings are folded", async () => {
   const page = await openReady("?sample=bunny", { viewport: { width: 1440, height: 900 } });
   expect(await open(page)).toEqual([]);
   const seen = await page
@@ -22,7 +22,7 @@ test("the first screen has a file, samples, hidden points and freeze; all other 
         ),
     );
   expect(new Set(seen)).toEqual(
-    new Set(["Hidden points", "Viewpoint", "Cloud", "Method", "Information", "Look", "Advanced"]),
+    new Set(["Hidden points", "Cloud", "Part of the cloud", "Information", "Look", "Advanced"]),
   );
 });
 
@@ -49,7 +49,7 @@ test("an own file is named above the samples, and is not one of them", async () 
     buffer: Buffer.from(asciiPly(ball(600))),
   });
   await page.locator('#status[data-total="600"]').waitFor();
-  expect(await page.locator("#own").textContent()).toBe("mine.ply");
+  expect(await page.locator("#panel .credit").textContent()).toContain("mine.ply");
   const offered = await page
     .locator("#sample option")
     .evaluateAll((options) =>
@@ -57,18 +57,4 @@ test("an own file is named above the samples, and is not one of them", async () 
     );
   expect(offered.join()).not.toContain("mine");
   expect(await page.locator("#sample").inputValue()).toBe("");
-});
-
-test("the color of hidden points is explained in the picture, as long as it is there", async () => {
-  const page = await openReady("?sample=bunny");
-  const legend = page.locator("#sign-hidden");
-  expect(await legend.isVisible()).toBe(false);
-  await page.getByRole("radio", { name: "Highlight" }).check();
-  expect(await legend.textContent()).toBe("Hidden from here");
-  const color = await legend.locator("i").evaluate((dot) => getComputedStyle(dot).backgroundColor);
-  expect(color).not.toBe("rgba(0, 0, 0, 0)");
-  await page.getByRole("button", { name: "Freeze viewpoint" }).click();
-  expect(await legend.textContent()).toBe("Hidden from that viewpoint");
-  await page.getByRole("radio", { name: "Hide" }).check();
-  expect(await legend.isVisible()).toBe(false);
 });

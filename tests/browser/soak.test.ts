@@ -66,10 +66,10 @@ async function press(page: Page, selector: string): Promise<void> {
 
 /** Switches modes on and off again. */
 async function around(page: Page): Promise<void> {
-  for (const mode of ["dimmed", "shown", "off"]) await press(page, `[name="hidden"][value="${mode}"]`);
+  for (const mode of ["dimmed", "shown", "off"]) await press(page, `#hidden-points [value="${mode}"]`);
   await unfold(page, "Look");
   for (const color of ["height", "own"]) await page.selectOption("#color", color);
-  for (const frozen of [true, false]) await press(page, `#freeze[aria-pressed="${!frozen}"]`);
+  for (const frozen of [true, false]) await press(page, `#walk[aria-pressed="${!frozen}"]`);
   for (const compared of [true, false]) await press(page, `#tool-compare[aria-pressed="${!compared}"]`);
   await press(page, "#tool-measure");
   for (const end of ["first", "second"]) {

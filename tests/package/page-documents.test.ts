@@ -83,8 +83,8 @@ test("every setting has a parameter of its own, and its usual value can be writt
   const rows = settings.map(([, row]) => row);
   const names = [...rows.map((row) => row.parameter), ...parameters.map(([name]) => name)];
   expect(new Set(names).size).toBe(names.length);
-  // If there is no light, no frozen viewpoint or no divider, the address does not mention it.
-  const unwritten = ["lights", "freeze", "compare"];
+  // If there is no frozen viewpoint, divider or part, the address does not mention it.
+  const unwritten = ["freeze", "compare", "box", "without"];
   for (const [name, { usual, write, parse }] of settings) {
     if (!unwritten.includes(name)) expect((parse as (text: string) => unknown)(write(usual)), name).toEqual(usual);
   }

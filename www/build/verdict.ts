@@ -2,7 +2,7 @@ import { init, PointCloud } from "hidden-point-removal";
 import { PerspectiveCamera, Vector3 } from "three";
 import { prepareCloud } from "../cloud/prepare.ts";
 import { oracleFor } from "../compare/oracles.ts";
-import { Projected, VISIBLE, zBuffer } from "../compare/zbuffer.ts";
+import { errorsOf, Projected, VISIBLE, zBuffer } from "../compare/zbuffer.ts";
 import { makeSample } from "../samples/generators.ts";
 import { SAMPLES } from "../samples/samples.ts";
 import { clipping } from "../view/stage.ts";
@@ -32,17 +32,13 @@ async function judged(): Promise<string> {
   const looks = points.visibleFrom(eye.at, { looks: 3 }).mask();
   const buffered = zBuffer(projected, projected.splatFor(points.spacing)).map((kind) => Number(kind === VISIBLE));
   const sees = (await oracleFor(surface, new Float32Array())).from(eye.at);
-  let [inside, wrong, bufferedWrong] = [0, 0, 0];
-  for (const [i, depth] of projected.depth.entries()) {
-    if (depth === 0) continue;
-    inside++;
-    const truth = Number(sees(i));
-    if (looks[i] !== truth) wrong++;
-    if (buffered[i] !== truth) bufferedWrong++;
-  }
+  const truth = Uint8Array.from(looks, (_, i) => Number(sees(i)));
   points.dispose();
-  const percent = (count: number) => `${((100 * count) / inside).toFixed(1)} %`;
-  return `${picture}: ${percent(wrong)} wrong; a z-buffer ${percent(bufferedWrong)}`;
+  const percent = (shown: Uint8Array) => {
+    const { wrong, missed } = errorsOf(projected, shown, truth);
+    return `${(100 * (wrong + missed)).toFixed(1)} %`;
+  };
+  return `${picture}: ${percent(looks)} wrong; a z-buffer ${percent(buffered)}`;
 }
 
 /** How right the first picture of the page is, by rays to the true surface. */

@@ -34,23 +34,8 @@ export interface LoadedCloud {
   notes?: string[];
   /** The columns of a table that were taken for x, y and z, if other ones may have been meant. */
   columnsAt?: readonly number[];
-  /** The octree of which these are the coarser levels, if the others are read when they are needed. */
-  streamed?: Streamed;
   /** How the cloud was measured, if the file says so: the direction that was up, and the places of the scanner. */
   taken?: { up?: Up; stations?: FileStation[] };
-}
-
-/** An octree that is too large to be read as a whole. */
-export interface Streamed {
-  /** Its address, or the file itself. */
-  from: string | Blob;
-  name: string;
-  /** The number of points of all levels. */
-  points: number;
-  /** The most points that one view may hold. */
-  budget: number;
-  /** The factor that makes bytes of the file's colors. Null if it has no colors. */
-  colorScale: number | null;
 }
 
 /** A cloud ready to draw: recentered in f32 for the graphics card. The file's own coordinates go to the hull's worker. */
@@ -75,7 +60,7 @@ export interface Cloud {
 }
 
 /** A cloud ready to draw, with the file's own coordinates and the loader's words about it. */
-export interface PreparedCloud extends Pick<LoadedCloud, "positions" | "notes" | "columnsAt" | "streamed" | "taken"> {
+export interface PreparedCloud extends Pick<LoadedCloud, "positions" | "notes" | "columnsAt" | "taken"> {
   cloud: Cloud;
   /** A copy of the positions for the hull's worker, which keeps what it gets. */
   copy: Float32Array | Float64Array;
@@ -109,6 +94,6 @@ export interface FileFacts {
 /** How far apart the points of a cloud are: typically, and near each point. */
 export interface Spacing {
   typical: number;
-  /** One byte a point: `typical` · 2 ^ ((byte − 128) / 32). */
+  /** One byte a point, never 0: `typical` · 2 ^ ((byte − 128) / 32). */
   local: Uint8Array<ArrayBuffer>;
 }

@@ -125,7 +125,7 @@ export function spacingOf(positions: Float32Array, rough: number): Spacing {
   const typical = sizes.slice().sort()[count >> 1]!;
   for (let i = 0; i < count; i++) {
     const times = Math.min(MOST, sizes[i]! / typical);
-    local[i] = Math.max(0, Math.round(128 + 32 * Math.log2(times)));
+    local[i] = Math.max(1, Math.round(128 + 32 * Math.log2(times)));
   }
   return { typical, local };
 }

@@ -4,7 +4,7 @@ import type { Mesh, OnFaces, Truth } from "../samples/generator.ts";
 import { download } from "../loaders/download.ts";
 import { generatorOf } from "../samples/generators.ts";
 import type { KnownSurface } from "../samples/samples.ts";
-import type { Solid, Vector } from "../samples/trace.ts";
+import type { Vector } from "../samples/trace.ts";
 
 /** Whether a viewpoint sees a point of the cloud. */
 export type Sight = (point: number) => boolean;
@@ -20,7 +20,7 @@ export interface Oracle {
  * A point is seen if the segment from it to the viewpoint meets no face but the point's own: the face that it lies on,
  * or the faces that it is a corner of.
  */
-export function meshOracle(mesh: Mesh, on: OnFaces | null = null, origin: readonly number[] = [0, 0, 0]): Oracle {
+export function meshOracle(mesh: Mesh, on: OnFaces | null = null): Oracle {
   const geometry = new BufferGeometry();
   geometry.setAttribute("position", new BufferAttribute(mesh.positions, 3));
   geometry.setIndex(new BufferAttribute(mesh.triangles, 1));
@@ -37,7 +37,7 @@ export function meshOracle(mesh: Mesh, on: OnFaces | null = null, origin: readon
   return {
     count: positions.length / 3,
     from(viewpoint) {
-      const target = new Vector3().fromArray(viewpoint).sub(new Vector3().fromArray(origin));
+      const target = new Vector3().fromArray(viewpoint);
       return (point) => {
         ray.origin.fromArray(positions, 3 * point);
         ray.direction.subVectors(target, ray.origin);
@@ -65,21 +65,24 @@ async function facesAt(url: string): Promise<Uint32Array> {
 }
 
 function oracleOf(truth: Truth): Oracle {
-  return "mesh" in truth ? meshOracle(truth.mesh, truth.on, truth.origin) : sceneOracle(truth.scene, truth.places);
+  return "mesh" in truth ? meshOracle(truth.mesh, truth.on) : sceneOracle(truth);
 }
 
 /** The end of a ray is rounded. So the ray ends before its point, by this share of its length. */
 const ROUNDING = 1e-9;
 
 /** Sends a ray from the viewpoint to each point of a scene of solids. */
-function sceneOracle(scene: Solid<unknown>, places: Float64Array): Oracle {
+function sceneOracle({ scene, places, origin = [0, 0, 0] }: Extract<Truth, { places: unknown }>): Oracle {
   return {
     count: places.length / 3,
-    from: (viewpoint) => (point) => {
-      const way = [0, 1, 2].map((axis) => places[3 * point + axis]! - viewpoint[axis]!);
-      const distance = Math.hypot(...way);
-      const along = way.map((value) => value / distance) as Vector;
-      return distance === 0 || scene(viewpoint as Vector, along, distance * (1 - ROUNDING)) === null;
+    from: (viewpoint) => {
+      const eye = origin.map((value, axis) => viewpoint[axis]! - value) as Vector;
+      return (point) => {
+        const way = [0, 1, 2].map((axis) => places[3 * point + axis]! - eye[axis]!);
+        const distance = Math.hypot(...way);
+        const along = way.map((value) => value / distance) as Vector;
+        return distance === 0 || scene(eye, along, distance * (1 - ROUNDING)) === null;
+      };
     },
   };
 }

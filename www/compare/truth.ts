@@ -9,11 +9,8 @@ export interface TruthQuestion {
   viewpoint: Viewpoint;
 }
 
-export type TruthReply =
-  | { kind: "progress"; share: number }
-  // 1 for each point that a ray reaches.
-  | { kind: "seen"; seen: Uint8Array }
-  | { kind: "problem"; sentence: string };
+/** 1 for each point that a ray reaches, or why that could not be found. */
+export type TruthReply = Uint8Array | string;
 
 /**
  * Traces rays to the true surface in a worker of its own. Resolves with 1 for each point that a ray from the viewpoint
@@ -24,7 +21,6 @@ export async function traced(
   surface: KnownSurface,
   at: Viewpoint,
   signal: AbortSignal,
-  onProgress: (share: number) => void = () => undefined,
 ): Promise<Uint8Array> {
   // A mesh is traced in f32. Coordinates in f64, such as those of a map, are measured from the middle of the cloud. The
   // truth of a generator knows its own.
@@ -40,9 +36,8 @@ export async function traced(
     return await new Promise((resolve, reject) => {
       signal.addEventListener("abort", () => reject(signal.reason as DOMException));
       worker.onmessage = ({ data: reply }: MessageEvent<TruthReply>) => {
-        if (reply.kind === "progress") onProgress(reply.share);
-        else if (reply.kind === "seen") resolve(reply.seen);
-        else reject(new Error(reply.sentence));
+        if (typeof reply === "string") reject(new Error(reply));
+        else resolve(reply);
       };
       worker.onerror = (event) => {
         event.preventDefault();

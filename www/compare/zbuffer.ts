@@ -1,5 +1,4 @@
-import { Matrix4, PerspectiveCamera, Vector3 } from "three";
-import type { Cloud } from "../cloud/cloud.ts";
+import { Matrix4, Vector3 } from "three";
 import type { Viewpoint } from "../settings/settings.ts";
 import { clipping } from "../view/stage.ts";
 import { inLocal } from "../view/framing.ts";
@@ -18,33 +17,6 @@ export function pictureFrom(viewer: Viewer, viewpoint: Viewpoint): Picture {
     near: clipping(at.length(), cloud.radius).near,
     pixels: (camera.projectionMatrix.elements[5] * resolution.y) / 2,
   };
-}
-
-/** The width of each side in pixels. */
-const SIDE = 1024;
-const SIDES = [
-  [1, 0, 0],
-  [-1, 0, 0],
-  [0, 1, 0],
-  [0, -1, 0],
-  [0, 0, 1],
-  [0, 0, -1],
-] as const;
-
-/** Six pictures of all that is around a viewpoint: the sides of a cube. */
-export function picturesAround(cloud: Cloud, viewpoint: Viewpoint): Picture[] {
-  const at = inLocal(cloud, viewpoint);
-  const { near, far } = clipping(at.length(), cloud.radius);
-  const { projectionMatrix } = new PerspectiveCamera(90, 1, near, far);
-  return SIDES.map((side) => {
-    const up = new Vector3(...(side[1] === 0 ? [0, 1, 0] : [1, 0, 0]));
-    const toEye = new Matrix4()
-      .lookAt(at, new Vector3(...side).add(at), up)
-      .setPosition(at)
-      .invert();
-    const matrix = new Matrix4().multiplyMatrices(projectionMatrix, toEye).toArray();
-    return { matrix, width: SIDE, height: SIDE, near, pixels: SIDE / 2 };
-  });
 }
 
 /** What it says about a point. Of a point outside the picture it knows nothing. */
@@ -79,8 +51,6 @@ const SPACINGS = 1.75;
 const SQUARE = 3;
 /** The greatest width of a splat in pixels. */
 const MOST_SPLAT = 64;
-/** This many depths are enough to find the middle one. */
-const SAMPLE = 10_000;
 
 /** The place of each point in a picture. */
 export class Projected {
@@ -112,12 +82,7 @@ export class Projected {
 
   /** The width in whole pixels that closes a surface of such a spacing at the middle depth. */
   splatFor(spacing: number): number {
-    const inside = this.depth.filter((depth) => depth > 0);
-    const step = Math.ceil(inside.length / SAMPLE);
-    const depths = Float64Array.from(
-      { length: Math.floor(inside.length / step) || 0 },
-      (_, i) => inside[i * step]!,
-    ).sort();
+    const depths = this.depth.filter((depth) => depth > 0).sort();
     if (depths.length === 0) return 1;
     const middle = depths[depths.length >> 1]!;
     return Math.max(1, Math.min(MOST_SPLAT, Math.round((SPACINGS * spacing * this.picture.pixels) / middle)));
@@ -153,4 +118,21 @@ export function zBuffer({ x, y, depth, picture }: Projected, splat: number): Uin
     if (own === 0) return OUTSIDE;
     return own * slack <= buffer[Math.floor(y[i]!) * width + Math.floor(x[i]!)]! ? VISIBLE : HIDDEN;
   });
+}
+
+/** Shares of the points in a picture: shown although they are hidden, and hidden although they are visible. */
+export function errorsOf(
+  { depth }: Projected,
+  shown: Uint8Array,
+  truth: Uint8Array,
+): { wrong: number; missed: number } {
+  let [count, wrong, missed] = [0, 0, 0];
+  for (let i = 0; i < depth.length; i++) {
+    if (depth[i] === 0) continue;
+    count++;
+    if (shown[i] === truth[i]) continue;
+    if (shown[i]) wrong++;
+    else missed++;
+  }
+  return { wrong: wrong / count, missed: missed / count };
 }

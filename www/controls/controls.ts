@@ -25,20 +25,12 @@ export function isCalm(): boolean {
 /** Every name begins with this, because other pages of the same site store things, too. */
 const OWN = "hidden-point-removal: ";
 
-/** What this device has stored under a name. A browser may refuse to store anything. Then this is always `null`. */
-export function remembered(name: string): string | null {
-  try {
-    return localStorage.getItem(OWN + name);
-  } catch {
-    return null;
-  }
-}
-
+/** Stores something on this device. A browser may refuse it. */
 export function remember(name: string, value: string): void {
   try {
     localStorage.setItem(OWN + name, value);
   } catch {
-    // See `remembered`.
+    // The next visit begins as the first one.
   }
 }
 
@@ -46,9 +38,16 @@ export function remember(name: string, value: string): void {
 export class Segmented<Value extends string = string> {
   readonly #inputs: HTMLInputElement[];
 
-  constructor(id: string, onChange: (value: Value) => void) {
-    this.#inputs = [...byId(id).querySelectorAll("input")];
-    for (const input of this.#inputs) input.addEventListener("change", () => onChange(input.value as Value));
+  /** `labels`: the words of each value. */
+  constructor(id: string, labels: Readonly<Record<string, string>>, onChange: (value: Value) => void) {
+    this.#inputs = Object.entries(labels).map(([value, words]) => {
+      const input = Object.assign(document.createElement("input"), { type: "radio", name: id, value });
+      input.addEventListener("change", () => onChange(value as Value));
+      const label = document.createElement("label");
+      label.append(input, words);
+      byId(id).append(label);
+      return input;
+    });
   }
 
   get value(): Value | null {
@@ -61,14 +60,23 @@ export class Segmented<Value extends string = string> {
   }
 }
 
+/** The track of a slider, and the words beside it for a place on it. */
+export interface Track {
+  least: number;
+  most: number;
+  step: number;
+  text: (at: number) => string;
+}
+
 /** A range input. Its value is shown beside its label, in the output `id`-value. */
 export class Slider {
   readonly #input: HTMLInputElement;
   readonly #output: HTMLOutputElement;
   readonly #text: (value: number) => string;
 
-  constructor(id: string, text: (value: number) => string, onInput: (value: number) => void) {
+  constructor(id: string, { text, least, most, step }: Track, onInput: (value: number) => void) {
     this.#input = byId(id, HTMLInputElement);
+    Object.assign(this.#input, { min: least, max: most, step });
     this.#output = byId(`${id}-value`, HTMLOutputElement);
     this.#text = text;
     this.#input.addEventListener("input", () => {

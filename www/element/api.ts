@@ -38,7 +38,7 @@ export interface HiddenPointCloudEventMap {
     viewpoint: Place;
     radius: number;
     milliseconds: number;
-    answer: "operator" | "looks" | "part";
+    answer: "operator" | "looks";
   }>;
   /** The progress of the loading, from 0 to 1; `null` if it is not known. */
   progress: CustomEvent<{ fraction: number | null }>;
@@ -47,7 +47,7 @@ export interface HiddenPointCloudEventMap {
   pick: CustomEvent<PickedPoint>;
 }
 
-/** `<hidden-point-cloud>`. Each property up to `announce` is the attribute of its name; `null` without the attribute. */
+/** `<hidden-point-cloud>`. Each property up to `label` is the attribute of its name; `null` without the attribute. */
 export interface HiddenPointCloudElement extends HTMLElement {
   /** Address of a LAS, LAZ, COPC, PLY, PCD, XYZ, TXT, CSV, OBJ, glTF or GLB file. */
   src: string | null;
@@ -81,8 +81,6 @@ export interface HiddenPointCloudElement extends HTMLElement {
   color: string | null;
   /** What the cloud is, for people who do not see it. */
   label: string | null;
-  /** Whether screen readers hear how many points are visible, when that number has changed. */
-  announce: boolean;
 
   /** `empty`: there is no `src`, or the element is in no document. */
   readonly state: "empty" | "loading" | "ready" | "error";

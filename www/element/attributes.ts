@@ -69,7 +69,6 @@ export const ATTRIBUTES = {
   up: { written: SETTINGS.up, setting: "up", property: "value" },
   color: { written: SETTINGS.color, setting: "color", property: "text" },
   label: { property: "text" },
-  announce: { property: "flag" },
 } satisfies Record<string, Attribute>;
 
 export type AttributeName = keyof typeof ATTRIBUTES;

@@ -1,10 +1,8 @@
+import { isCalm } from "../controls/controls.ts";
 import { ELEMENT_KEYS, spokenKeys } from "../controls/keys.ts";
 import style from "./element.css?inline";
 import { Color } from "three";
 import { type Theme, THEMES } from "../view/theme.ts";
-
-/** A new sentence must stay for this number of milliseconds before screen readers hear it. */
-const SETTLED = 1000;
 
 /** The element's shadow tree: the picture and the words over it. Each has a slot and a part that the page can use. */
 export class Frame {
@@ -13,10 +11,8 @@ export class Frame {
   readonly #loading = words("loading");
   readonly #error = words("error");
   readonly #fallback = make("div", "fallback");
-  readonly #live = make("p", "status");
   #canvas: HTMLCanvasElement | null = null;
   #label: string | null = null;
-  #announcing: ReturnType<typeof setTimeout> | undefined;
 
   constructor(root: ShadowRoot) {
     this.#root = root;
@@ -28,10 +24,8 @@ export class Frame {
     this.#bar.ariaLabel = "Loading";
     this.#fallback.className = "fallback";
     this.#fallback.append(document.createElement("slot"));
-    this.#live.className = "unseen";
-    this.#live.role = "status";
     this.#bar.hidden = this.#loading.hidden = this.#error.hidden = this.#fallback.hidden = true;
-    root.append(this.#bar, this.#loading, this.#error, this.#fallback, this.#live);
+    root.append(this.#bar, this.#loading, this.#error, this.#fallback);
   }
 
   /** Makes a new canvas each time: a canvas that has been given up cannot draw again. */
@@ -58,8 +52,9 @@ export class Frame {
   /** Shows the progress. `null`: a cloud is being loaded, but the progress is not known. */
   showProgress(fraction: number | null): void {
     this.#bar.hidden = false;
-    if (fraction === null) this.#bar.removeAttribute("value");
-    else this.#bar.value = fraction;
+    // Without its end, the bar moves.
+    if (fraction === null && !isCalm()) this.#bar.removeAttribute("value");
+    else this.#bar.value = fraction ?? 0;
   }
 
   hideProgress(): void {
@@ -82,20 +77,9 @@ export class Frame {
     this.#fallback.hidden = !filled;
     return filled;
   }
-
-  announce(sentence: string): void {
-    clearTimeout(this.#announcing);
-    this.#announcing = setTimeout(() => (this.#live.textContent = sentence), SETTLED);
-  }
-
-  /** Takes the sentences for screen readers away. */
-  hush(): void {
-    clearTimeout(this.#announcing);
-    this.#live.textContent = "";
-  }
 }
 
-function make<Tag extends "canvas" | "progress" | "div" | "p">(tag: Tag, part: string): HTMLElementTagNameMap[Tag] {
+function make<Tag extends "canvas" | "progress" | "div">(tag: Tag, part: string): HTMLElementTagNameMap[Tag] {
   const element = document.createElement(tag);
   element.setAttribute("part", part);
   return element;

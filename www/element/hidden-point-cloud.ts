@@ -161,7 +161,6 @@ class HiddenPointCloud extends Base implements Own {
     this.#looks = false;
     const reading = readAttributes(this);
     this.#frame.setLabel(this.getAttribute("label"));
-    if (!this.hasAttribute("announce")) this.#frame.hush();
     const there = this.#showing?.showing ?? null;
     const showing = there ?? this.#wake(reading);
     for (const problem of this.#newProblems(reading)) this.#emit("error", { error: problem });
@@ -231,18 +230,12 @@ class HiddenPointCloud extends Base implements Own {
           this.setAttribute("hidden-points", hidden);
         }
         this.toggleAttribute("frozen", freeze !== null);
-        const { showing } = this.#showing!;
-        // The same answer is told in other words.
-        if (showing.cloud && this.hasAttribute("announce")) {
-          this.#frame.announce(showing.sentence(showing.viewer.scene.answer));
-        }
       },
     };
   }
 
   #answer(answer: TimedView): void {
     const { question, kind, visibility, milliseconds } = answer;
-    if (this.hasAttribute("announce")) this.#frame.announce(this.#showing!.showing.sentence(answer));
     this.#emit("change", {
       count: visibility.count,
       viewpoint: [...question.viewpoint],
@@ -254,7 +247,6 @@ class HiddenPointCloud extends Base implements Own {
 
   #fail(problem: Problem): void {
     this.#state = "error";
-    if (this.hasAttribute("announce")) this.#frame.announce(problem.message);
     this.#emit("error", { error: problem });
     this.#ready.reject(problem);
   }

@@ -1,4 +1,4 @@
-import { sentenceOf, type TimedView } from "../view/inquiry.ts";
+import type { TimedView } from "../view/inquiry.ts";
 import type { Cloud } from "../cloud/cloud.ts";
 import type { LoadRequest } from "../loaders/index.ts";
 import { Moves } from "../view/moves.ts";
@@ -114,7 +114,6 @@ export class Showing {
     this.#loading.abort();
     this.viewer.dispose();
     this.#frame.removeCanvas();
-    this.#frame.hush();
   }
 
   async #load(asked: Reading, name: string, signal: AbortSignal): Promise<void> {
@@ -197,11 +196,6 @@ export class Showing {
     if (answer.note !== null && answer.note !== this.#note) this.#tell.refused(new Problem("attribute", answer.note));
     this.#note = answer.note;
     this.#tell.answered(answer);
-  }
-
-  /** An answer in words, for screen readers. */
-  sentence(answer: TimedView): string {
-    return sentenceOf(answer, this.cloud?.count ?? 0, this.moves.frozen);
   }
 
   #progress(fraction: number | null): void {

@@ -6,24 +6,27 @@ import script from "./worker.ts?worker&url";
 export { LoadProblem } from "./protocol.ts";
 export type { LoadRequest, ReadOptions } from "./protocol.ts";
 
+/** A cloud that is being loaded. */
+interface Loading {
+  cloud: Promise<PreparedCloud>;
+  onProgress: (step: string, fraction: number | null) => void;
+  end: () => void;
+}
+
 /** A loading that has begun before anybody waits for it. */
-let ahead: { request: LoadRequest; loading: Loading | Promise<PreparedCloud> } | null = null;
+let ahead: { request: LoadRequest; loading: Loading } | null = null;
 
 /** Begins to load a cloud, before the page's other parts are there. `loadCloud` goes on with the same request. */
 export function loadAhead(request: LoadRequest): void {
   const loading = begin(request);
   // If it fails, the error is reported to whoever waits for it.
-  if (loading instanceof Promise) loading.catch(() => undefined);
+  loading.cloud.catch(() => undefined);
   ahead = { request, loading };
-}
-
-function begin(request: LoadRequest): Loading | Promise<PreparedCloud> {
-  return request.kind === "sample" ? loadSample(request) : new Loading(request);
 }
 
 /** Ends the loading that has begun, if nobody will wait for it. */
 export function forgetAhead(): void {
-  if (ahead?.loading instanceof Loading) ahead.loading.end();
+  ahead?.loading.end();
   ahead = null;
 }
 
@@ -34,63 +37,39 @@ export function forgetAhead(): void {
 export async function loadCloud(
   request: LoadRequest,
   signal: AbortSignal,
-  onProgress: (step: string, fraction: number | null) => void,
+  onProgress: Loading["onProgress"],
 ): Promise<PreparedCloud> {
   if (ahead?.request !== request) forgetAhead();
-  const begun = ahead?.loading;
+  const loading = ahead?.loading ?? begin(request);
   ahead = null;
-  const loading = begun ?? begin(request);
-  return new Promise<PreparedCloud>((resolve, reject) => {
+  loading.onProgress = onProgress;
+  const stopped = new Promise<never>((_, reject) => {
     signal.addEventListener("abort", () => reject(new DOMException("Another cloud was opened.", "AbortError")));
-    if (loading instanceof Promise) {
-      loading.then(resolve, reject);
-      return;
-    }
-    loading.listen((reply) => {
-      if (reply.kind === "progress") onProgress(reply.step, reply.fraction);
-      else if (reply.kind === "cloud") resolve(reply.prepared);
-      else reject(new LoadProblem(reply.sentence, reply.rest));
-    }, reject);
-  }).finally(() => {
-    if (loading instanceof Loading) loading.end();
   });
+  return Promise.race([loading.cloud, stopped]).finally(loading.end);
 }
 
-/** A worker that loads one cloud. It keeps its replies until somebody listens. */
-class Loading {
-  readonly end: () => void;
-  readonly #early: (() => void)[] = [];
-  #onReply: ((reply: LoadReply) => void) | null = null;
-  #onProblem: (problem: LoadProblem) => void = () => undefined;
-
-  constructor(request: WorkerRequest) {
-    const { worker, end } = startWorker();
-    this.end = end;
+function begin(request: LoadRequest): Loading {
+  const onProgress = () => undefined;
+  if (request.kind === "sample") return { cloud: loadSample(request), onProgress, end: () => undefined };
+  const { worker, end } = startWorker();
+  const cloud = new Promise<PreparedCloud>((resolve, reject) => {
     worker.onmessage = ({ data: reply }: MessageEvent<LoadReply>) => {
-      this.#tell(() => this.#onReply!(reply));
+      if (reply.kind === "progress") loading.onProgress(reply.step, reply.fraction);
+      else if (reply.kind === "cloud") resolve(reply.prepared);
+      else reject(new LoadProblem(reply.sentence, reply.rest));
     };
     worker.onerror = (event) => {
       event.preventDefault();
       // Only an error inside a running worker is an ErrorEvent. Otherwise the worker's script is missing.
-      const running = event instanceof ErrorEvent;
-      const problem = running
-        ? new LoadProblem(`${request.name} could not be read: the browser ran out of memory or stopped the loader.`)
-        : missingPart(request.name);
-      this.#tell(() => this.#onProblem(problem));
+      const isRunning = event instanceof ErrorEvent;
+      const why = "could not be read: the browser ran out of memory or stopped the loader.";
+      reject(isRunning ? new LoadProblem(`${request.name} ${why}`) : missingPart(request.name));
     };
-    worker.postMessage(request);
-  }
-
-  listen(onReply: (reply: LoadReply) => void, onProblem: (problem: LoadProblem) => void): void {
-    this.#onReply = onReply;
-    this.#onProblem = onProblem;
-    for (const tell of this.#early.splice(0)) tell();
-  }
-
-  #tell(tell: () => void): void {
-    if (this.#onReply) tell();
-    else this.#early.push(tell);
-  }
+  });
+  const loading: Loading = { cloud, onProgress, end };
+  worker.postMessage(request satisfies WorkerRequest);
+  return loading;
 }
 
 /**

@@ -19,8 +19,6 @@ export interface ReadOptions {
   chosen?: [string, string, string];
   /** If there are more points than this, the cloud is thinned evenly. */
   limit?: number;
-  /** An octree with more points than this is streamed: only its coarser levels are read now. */
-  streamFrom?: number;
 }
 
 /** The replies: any number of progress steps, then the cloud or an error. `fraction` is null if it is not known. */

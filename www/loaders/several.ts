@@ -94,8 +94,6 @@ export interface Named {
 
 /** The column with the number of each point's file. */
 const FILE = "file";
-/** The byte of each color of points without colors, beside points with colors. */
-const GRAY = 160;
 
 const list = new Intl.ListFormat("en", { type: "conjunction" });
 
@@ -111,8 +109,7 @@ export function merged(parts: readonly Named[]): LoadedCloud {
   const missing = new Set(columns.flatMap((own) => own.map(({ name }) => name)));
   for (const { name } of shared) missing.delete(name);
   const colors = joinedColors(clouds);
-  // Another note says which files have no colors.
-  if (colors) for (const name of ["red", "green", "blue"]) missing.delete(name);
+  if (!colors && clouds.some((cloud) => cloud.colors)) missing.add("colors");
 
   const fields = shared.map(({ name }) => joinedField(name, columns, counts));
   const attributes = fields.flatMap((field) => attributeOf(field, clouds));
@@ -134,7 +131,6 @@ export function merged(parts: readonly Named[]): LoadedCloud {
             `Columns that not every file has are left out: ${list.format([...missing].map((name) => name.replaceAll("_", " ")))}.`,
           ]
         : []),
-      ...colorNote(parts),
       ...systemNote(parts),
     ],
   };
@@ -194,18 +190,10 @@ function fileColumn(
   };
 }
 
+/** Colors, if every file has them. */
 function joinedColors(clouds: readonly LoadedCloud[]): Uint8Array | null {
-  if (clouds.every(({ colors }) => colors === null)) return null;
-  return joined(
-    clouds.map(({ colors, positions }) => colors ?? filled(Uint8Array, positions.length, GRAY)),
-    Uint8Array,
-  ) as Uint8Array;
-}
-
-function colorNote(parts: readonly Named[]): string[] {
-  const without = parts.filter(({ cloud }) => cloud.colors === null);
-  if (without.length === 0 || without.length === parts.length) return [];
-  return [`Files without colors are gray: ${list.format(without.map(({ name }) => name))}.`];
+  const all = clouds.flatMap(({ colors }) => (colors ? [colors] : []));
+  return all.length === clouds.length ? (joined(all, Uint8Array) as Uint8Array) : null;
 }
 
 /** Facts that hold for all files. */

@@ -58,18 +58,17 @@ async function load(request: WorkerRequest): Promise<LoadedCloud> {
     const { readSeveral } = await import("./several.ts");
     return readSeveral(request.files, { limit, onProgress });
   }
-  const { streamFrom, skipNonFinite, damaged, chosen } = request;
+  const { skipNonFinite, damaged, chosen } = request;
   const check = (cloud: LoadedCloud) => checkedCloud(name, cloud, skipNonFinite === true);
   // Refuses texts that cannot be read as an address, and addresses that hold their own content (data:). A program hands over
   // its own cloud by blob:.
   if (request.kind === "url" && !request.url.startsWith("blob:") && !URL.canParse(".", request.url)) {
     throw new LoadProblem(`“${shortened(request.url)}” is not the address of a file.`);
   }
-  if (/\.copc\.laz$/i.test(name) && streamFrom !== undefined) {
-    const { overviewOf } = await import("./octree.ts");
-    const from = request.kind === "file" ? request.file : request.url;
-    const overview = await overviewOf(name, from, { limit, streamFrom });
-    if (overview !== null) return check(overview);
+  if (/\.copc\.laz$/i.test(name)) {
+    const { coarseOf } = await import("./octree.ts");
+    const coarse = await coarseOf(name, request.kind === "file" ? request.file : request.url, limit);
+    if (coarse !== null) return check(coarse);
   }
   const blob = request.kind === "file" ? request.file : await download(name, request.url, downloading);
   if (blob.size === 0) throw new LoadProblem(`${name} is empty.`);

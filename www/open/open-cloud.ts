@@ -98,6 +98,11 @@ export async function openCloud(
     wished.color !== undefined,
   );
   own.color = color;
+  const classNotes: string[] = [];
+  if (own.without && !cloud.attributes.some(({ name: column }) => column === own.without!.column)) {
+    classNotes.push(`The cloud has no “${own.without.column}”, so no class is left out.`);
+    own.without = null;
+  }
   const { fieldOfView: fov, up } = { ...usual, ...wished };
   const homeFrom = (asked: AskedView | null, whole?: boolean) => (upward: Up) => {
     const lens = { fov, ...place.shape() };
@@ -106,7 +111,6 @@ export async function openCloud(
     return findHome(cloud, upward, sameUp ? sample : null, (sameUp ? asked : null) ?? taken, lens, whole);
   };
   const home = homeFrom(view)(up);
-  const streaming = loaded.streamed && (await import("../stream/streamed-inquiry.ts"));
   // The worker takes the copy. The page keeps the file's own coordinates for the tools.
   const shared = place.shared && cloud.count < SHARED_BELOW;
   const made = (given: Float32Array | Float64Array, report: (fraction: number) => void) =>
@@ -127,9 +131,7 @@ export async function openCloud(
   onProgress(`Finding the visible points of ${request.name}.`, null);
   const another = () => WorkerPointCloud.create(positions.slice(), { workers: 1, transfer: true });
   const points = new CloudPoints(cloud, THEMES.dark);
-  const inquiry = streaming
-    ? new streaming.StreamedInquiry(worker, another, points, loaded.streamed!)
-    : new Inquiry(worker, another, points);
+  const inquiry = new Inquiry(worker, another, points, positions);
   try {
     const answer = await inquiry.first(own.freeze ?? home.viewpoint, { ...place.settings(), ...own });
     signal.throwIfAborted();
@@ -141,7 +143,6 @@ export async function openCloud(
       home,
       answer,
       findHome: homeFrom(view),
-      stations,
       ...(sample?.surface && { surface: sample.surface }),
     };
     return {
@@ -151,7 +152,7 @@ export async function openCloud(
       view,
       homeFrom,
       columnsAt: loaded.columnsAt,
-      refusals: [...farNotes, ...colorNote],
+      refusals: [...farNotes, ...colorNote, ...classNotes],
       notes: loaded.notes ?? [],
     };
   } catch (error) {
@@ -168,6 +169,8 @@ function sentence(step: string, name: string, fraction: number | null): string {
 function leaving({ radius, freeze, hidden }: Settings): Partial<Settings> {
   return {
     freeze: null,
+    box: null,
+    without: null,
     thickness: "auto",
     ...("length" in radius && { radius: { rule: "auto" } }),
     ...(freeze && hidden === "dimmed" && { hidden: "off" }),

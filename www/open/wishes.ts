@@ -4,16 +4,12 @@ import type { Cloud, Up } from "../cloud/cloud.ts";
 import { OWN_COLORS, type Settings, USUAL_SETTINGS } from "../settings/settings.ts";
 import { spreadOf } from "../cloud/prepare.ts";
 import { colorChoices } from "../view/colors.ts";
-import { indicesByStation } from "../../src/ts/formats/cloud-file.js";
-import type { Opened } from "../view/viewer.ts";
 
 /** Says which points may be left out when a file is read. */
 export interface FileOptions {
   skipNonFinite: boolean;
   /** The largest number of points that are shown. */
   limit?: number;
-  /** An octree with more points than this is streamed. Without it, nothing is. */
-  streamFrom?: number;
 }
 
 /** Sample files lie beside the page, or beside the element's module. `base` is the address of that page or module. */
@@ -108,21 +104,4 @@ function levelUp({ local, count }: Cloud): Up | undefined {
     const area = Math.max(0, ...heights.values());
     return { area, share: area / lowest.size };
   }
-}
-
-/** A place from which points were measured, and these points: it surely sees them. */
-export interface Measured {
-  viewpoint: [number, number, number];
-  indices: Uint32Array;
-}
-
-/** The stations of a scan that have measured points. */
-export function measuredBy({
-  cloud,
-  positions,
-  stations,
-}: Pick<Opened, "cloud" | "positions" | "stations">): Measured[] {
-  return indicesByStation({ stations, columns: cloud.fields, positions })
-    .map((indices, i) => ({ viewpoint: stations[i]!.viewpoint, indices }))
-    .filter(({ indices }) => indices.length > 0);
 }

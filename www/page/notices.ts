@@ -2,10 +2,6 @@ import { HprError } from "hidden-point-removal";
 import { LoadProblem } from "../loaders/index.ts";
 import type { Message, MessageAction } from "../panel/message.ts";
 import type { Status } from "./status.ts";
-import { methodOf } from "../view/inquiry.ts";
-import { measuredBy } from "../open/wishes.ts";
-import type { Settings, Store } from "../settings/settings.ts";
-import type { Opened, Viewer } from "../view/viewer.ts";
 import { make, numberField, openDialog } from "../tools/make.ts";
 
 /** Shows problems. An error is shown in the status and the message. A note about an answer is in the message alone. */
@@ -65,51 +61,6 @@ function plain(error: unknown): string {
   // The library says then how a program goes on.
   if (isLoss(error)) return (error as HprError).message.split(";")[0]!;
   return error instanceof Error ? error.message.replace(/\.$/, "") : String(error);
-}
-
-interface Parts {
-  viewer: Viewer;
-  store: Store;
-  message: Message;
-}
-
-/**
- * Takes the smallest thickness at which the stations of the file see the points that they measured, and says which share of
- * these they see. Looks are needed for that.
- */
-export async function calibrate(opened: Opened, { viewer, store, message }: Parts): Promise<void> {
-  const { cloud, inquiry } = opened;
-  const measured = measuredBy(opened);
-  message.show("Looking from its stations.");
-  const before = store.current;
-  const looking = {
-    radius: { rule: "auto" },
-    inversion: "spherical",
-    looks: before.looks || 3,
-  } satisfies Partial<Settings>;
-  try {
-    const options = inquiry.options(methodOf({ ...before, ...looking, thickness: "auto" }));
-    const { thickness, recall } = await inquiry.cloud.calibrate(measured, options);
-    if (viewer.cloud !== cloud) return;
-    store.change({ ...looking, thickness });
-    const seen = recall.reduce((sum, share, i) => sum + share * measured[i]!.indices.length, 0);
-    const all = measured.reduce((sum, { indices }) => sum + indices.length, 0);
-    const whose = measured.length === 1 ? ["scan’s", "its station"] : ["scans’", "their stations"];
-    message.show(
-      `${Math.floor((100 * seen) / all)}\u00a0% of the ${whose[0]} own points can be seen from ${whose[1]}.`,
-      [
-        {
-          label: "Undo",
-          run: () => {
-            const { radius, inversion, looks: own, thickness: usual } = before;
-            store.change({ radius, inversion, looks: own, thickness: usual });
-          },
-        },
-      ],
-    );
-  } catch (error) {
-    if (viewer.cloud === cloud) message.show(sentenceOf(error, "The stations could not be asked"));
-  }
 }
 
 /** Asks which columns of a table are x, y and z, and calls `choose` with them. `at`: the columns that were taken. */

@@ -10,7 +10,7 @@ import { canLook, type Store, USUAL_SETTINGS } from "../settings/settings.ts";
 import type { Workshop } from "../tools/workshop.ts";
 import type { AskedView } from "../view/framing.ts";
 import type { Viewer } from "../view/viewer.ts";
-import { calibrate, chooseColumns, isLoss, type Notices, sentenceOf } from "./notices.ts";
+import { chooseColumns, isLoss, type Notices, sentenceOf } from "./notices.ts";
 import { fromSample, nameOf, type Source } from "./sources.ts";
 import type { Status } from "./status.ts";
 
@@ -72,8 +72,7 @@ export class Opening {
   say(): void {
     const { viewer, store, status } = this.#parts;
     if (!viewer.cloud || !canLook(store.current) || store.current.looks === 0) return;
-    const { inquiry, cloud, answer } = viewer.scene;
-    if (answer.whole) return;
+    const { inquiry, cloud } = viewer.scene;
     // A cloud that is put away meanwhile says nothing.
     status.surface(inquiry.cloud, cloud, () => store.current).catch(() => undefined);
   }
@@ -135,13 +134,6 @@ export class Opening {
       actions.push({
         label: "Show all",
         run: () => viewer.setHome(ready.homeFrom(null, true)),
-      });
-    }
-    if (ready.opened.stations.length > 0 && ready.settings.thickness === "auto") {
-      more.push("The file says where its points were measured from.");
-      actions.push({
-        label: "Calibrate by its stations",
-        run: () => void calibrate(ready.opened, { viewer, store, message }),
       });
     }
     if (ready.columnsAt) {

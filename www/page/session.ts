@@ -1,7 +1,8 @@
-import { Message, Signs } from "../panel/message.ts";
+import { Message } from "../panel/message.ts";
 import { Turning } from "../view/moves.ts";
-import { Opening, type Parts } from "./opening.ts";
+import { Opening } from "./opening.ts";
 import { byId } from "../controls/controls.ts";
+import { spokenKeys } from "../controls/keys.ts";
 import { forgetAhead } from "../loaders/index.ts";
 import { onFile } from "../panel/files.ts";
 import { Panel } from "../panel/panel.ts";
@@ -21,52 +22,11 @@ import { fromFiles, limitsOf, type Source } from "./sources.ts";
 import { Status } from "./status.ts";
 import { Storytelling } from "./storytelling.ts";
 
-/** Connects the parts of the page: the viewer draws and asks, and the other parts follow it. */
-export function wire({
-  viewer,
-  store,
-  panel,
-  signs,
-  address,
-  workshop,
-  status,
-  message,
-  notices,
-  turning,
-}: Parts & { signs: Signs; turning: Turning }): void {
-  viewer.onFrame = () => workshop.place();
-  viewer.onDetail = () => workshop.exchange();
-  viewer.onAttributes = (cloud) => panel.prepare(cloud);
-  viewer.stage.onCamera = () => {
-    // While another cloud is being read, the camera is not where the address says.
-    if (viewer.cloud) address.touch();
-  };
-  viewer.stage.onLost = () => {
-    message.show(
-      "The browser has taken the picture away to save memory; it is drawn again as soon as the browser allows, or when you reload the page.",
-    );
-  };
-  viewer.stage.onRestored = () => message.hide();
-  store.follow((now) => status.describe(now.freeze !== null));
-  viewer.onAnswer = (answer, total) => {
-    panel.follow(answer);
-    workshop.answer();
-    status.answer(answer, total, store.current.freeze !== null);
-    notices.tell(answer.note);
-  };
-  viewer.onMap = (mapped) => status.map(mapped);
-  viewer.onBusy = (busy, byMap) => {
-    status.busy(busy);
-    // A picture that turns by itself is never up to date, and nobody waits for it.
-    signs.busy(busy && !byMap && !turning.isOn);
-  };
-  viewer.onError = (error) => notices.refuseView(error);
-}
-
 /** Makes the parts of the page, and opens the first cloud in them. Without WebGL 2, says so. Resolves when it is open. */
 export async function startSession(wishes: Wishes, first: Source): Promise<void> {
   const status = new Status(byId("status"));
   const message = new Message();
+  byId("view").ariaLabel = `Point cloud. ${spokenKeys(["orbit", "pan", "zoom", "pick", "sheet"])}.`;
   if (!canDraw(byId("view", HTMLCanvasElement))) {
     const sentence = "This page draws with WebGL 2, which this browser does not offer or has switched off.";
     status.error(sentence);
@@ -97,7 +57,32 @@ export async function startSession(wishes: Wishes, first: Source): Promise<void>
   const parts = { viewer, store, panel, address, workshop, status, message, notices };
   const opening: Opening = new Opening(parts, sampleNamed(wishes.sample));
   const storytelling: Storytelling = new Storytelling({ viewer, store, address, workshop, opening });
-  wire({ ...parts, turning, signs: new Signs(store) });
+  viewer.onFrame = () => workshop.tools?.place();
+  viewer.onAttributes = (cloud) => panel.prepare(cloud);
+  viewer.stage.onCamera = () => {
+    // While another cloud is being read, the camera is not where the address says.
+    if (viewer.cloud) address.touch();
+  };
+  viewer.stage.onLost = () => {
+    message.show(
+      "The browser has taken the picture away to save memory; it is drawn again as soon as the browser allows, or when you reload the page.",
+    );
+  };
+  viewer.stage.onRestored = () => message.hide();
+  store.follow((now) => status.describe(now.freeze !== null));
+  viewer.onAnswer = (answer, total) => {
+    panel.follow(answer);
+    workshop.tools?.follow();
+    status.answer(answer, total, store.current.freeze !== null);
+    notices.tell(answer.note);
+  };
+  viewer.onMap = (mapped) => status.map(mapped);
+  viewer.onBusy = (busy, byMap) => {
+    status.busy(busy);
+    // A picture that turns by itself is never up to date, and nobody waits for it.
+    byId("sign-work").hidden = !busy || byMap || turning.isOn;
+  };
+  viewer.onError = (error) => notices.refuseView(error);
 
   onFile({
     open: (files, notes) => void opening.open(fromFiles(files, notes, limitsOf(wishes))),
@@ -144,7 +129,7 @@ function bindLessons(
     }
   };
   bind(".how", "The lesson", async () => {
-    if (viewer.cloud) await (await import("../how/how.ts")).showHow(viewer, store);
+    await (await import("../how/how.ts")).showHow();
   });
   bind(".right", "The judgment", async () => {
     if (viewer.cloud) await (await import("../right/right.ts")).showRight(viewer);

@@ -2,7 +2,6 @@ import type { Wish } from "../open/open-cloud.ts";
 import { type FileOptions, requestForAddress, requestForSample } from "../open/wishes.ts";
 import { type Sample, sampleNamed } from "../samples/samples.ts";
 import type { CloudName } from "../settings/address.ts";
-import { MAX_POINTS } from "../settings/limits.ts";
 import type { Wishes } from "../settings/read-address.ts";
 import type { AskedView } from "../view/framing.ts";
 
@@ -63,9 +62,7 @@ export function sourceOf(wishes: Wishes, search: string): Source {
   return { ...source, settings, notes, marks: search };
 }
 
-/** The largest number of points of a file, and that from which on an octree is streamed, as the address asks for them. */
-export function limitsOf({ points, stream }: Wishes): Limits {
-  return points === null
-    ? { streamFrom: stream ?? MAX_POINTS }
-    : { limit: points, ...(stream && { streamFrom: stream }) };
+/** The largest number of points of a file, as the address asks for it. */
+export function limitsOf({ points }: Wishes): Limits {
+  return points === null ? {} : { limit: points };
 }

@@ -1,6 +1,6 @@
 import type { Inversion } from "../settings/settings.ts";
 import { SETTINGS } from "../settings/table.ts";
-import { captionOf, foundBy, type Mapped, sentenceOf, type TimedView } from "../view/inquiry.ts";
+import { captionOf, type Mapped, sentenceOf, type TimedView } from "../view/inquiry.ts";
 import { byId } from "../controls/controls.ts";
 import type { WorkerPointCloud } from "hidden-point-removal/worker";
 import type { Cloud } from "../cloud/cloud.ts";
@@ -29,7 +29,6 @@ export class Status {
   readonly #announcement = byId("announcement");
   /** The sentence over the picture. Screen readers have the status. */
   readonly #caption = byId("caption");
-  readonly #method = byId("method");
   #sentence = "";
   #captioned = "";
   /** The caption of the last answer. */
@@ -127,15 +126,9 @@ export class Status {
   /** Says the last answer again, since the viewpoint may have been frozen or not. */
   describe(frozen: boolean): void {
     if (!this.#last || this.#element.dataset["state"] !== "ready") return;
-    const { total, whole } = this.#last;
-    if (whole) {
-      this.#say(whole.sentence);
-      this.#method.textContent = "";
-      return;
-    }
+    const { total } = this.#last;
     this.#answered = captionOf(this.#last, total, frozen);
     this.#say(sentenceOf(this.#last, total, frozen), this.#answered);
-    this.#method.textContent = foundBy(this.#last, total);
   }
 
   /** Lets the next sentence be read at once. */

@@ -79,7 +79,7 @@ export class Storytelling {
     const lens = this.#parts.viewer.stage.shape.aspect < 1 ? NARROW : "";
     const player = (this.#player = new Player(TOLD[name], {
       show: (address, signal) => this.#show(`?sample=${STORIES[name]}&${address}${lens}`, signal),
-      figure: (figure) => this.#parts.workshop.figure(figure),
+      figure: (figure) => this.#parts.workshop.tools?.figure(figure) ?? null,
       ended: () => {
         if (this.#player !== player) return;
         this.#player = null;

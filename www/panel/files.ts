@@ -1,4 +1,5 @@
 import { byId } from "../controls/controls.ts";
+import { FORMATS, listed, OTHER_ENDINGS } from "../settings/limits.ts";
 
 export interface FileActions {
   /** `notes`: sentences that the user has to read about the files. */
@@ -10,6 +11,7 @@ export interface FileActions {
 /** Calls `open` for files that are chosen by the button or dropped anywhere on the page. */
 export function onFile({ open, refuse }: FileActions): void {
   const input = byId("file", HTMLInputElement);
+  input.accept = [...FORMATS, ...OTHER_ENDINGS].map((name) => `.${name.toLowerCase()}`).join();
   byId("open").addEventListener("click", () => input.click());
   input.addEventListener("change", () => {
     const files = [...(input.files ?? [])];
@@ -19,6 +21,7 @@ export function onFile({ open, refuse }: FileActions): void {
   });
 
   const hint = byId("drop");
+  hint.firstElementChild!.textContent = `Drop ${listed(FORMATS, "or")} files`;
   document.addEventListener("dragover", (event) => {
     event.preventDefault();
     hint.hidden = false;

@@ -1,6 +1,5 @@
-import { byId } from "../controls/controls.ts";
+import { byId, isCalm } from "../controls/controls.ts";
 import { isKeyOf } from "../controls/keys.ts";
-import type { Store } from "../settings/settings.ts";
 
 export interface MessageAction {
   label: string;
@@ -61,35 +60,14 @@ export class Progress {
   /** Shows the progress. `null`: a cloud is being loaded, but the progress is not known. */
   show(fraction: number | null): void {
     this.#bar.hidden = this.#cancel.hidden = false;
-    if (fraction === null) this.#bar.removeAttribute("value");
-    else this.#bar.value = fraction;
+    // Without its end, the bar moves.
+    if (fraction === null && !isCalm()) this.#bar.removeAttribute("value");
+    else this.#bar.value = fraction ?? 0;
   }
 
   hide(): void {
     // The focus must not vanish with the button.
     if (document.activeElement === this.#cancel) byId("view").focus();
     this.#bar.hidden = this.#cancel.hidden = true;
-  }
-}
-
-/** The small signs over the picture: an answer is still to come, the viewpoint is frozen, this color means hidden. */
-export class Signs {
-  readonly #work = byId("sign-work");
-
-  constructor(store: Store) {
-    const frozen = byId("sign-frozen");
-    const hidden = byId("sign-hidden");
-    store.follow(({ freeze, hidden: mode, compare }) => {
-      const isFrozen = freeze !== null;
-      frozen.hidden = !isFrozen;
-      // Beside a comparison, hidden points have no color of their own.
-      hidden.hidden = mode === "off" || compare !== null;
-      hidden.dataset["dimmed"] = String(mode === "dimmed");
-      hidden.lastElementChild!.textContent = isFrozen ? "Hidden from that viewpoint" : "Hidden from here";
-    });
-  }
-
-  busy(busy: boolean): void {
-    this.#work.hidden = !busy;
   }
 }

@@ -1,5 +1,5 @@
 import { byId, Segmented, Slider } from "../controls/controls.ts";
-import { canLook, rowOf, type Settings, type Store, USUAL_SETTINGS } from "../settings/settings.ts";
+import { canLook, LABELS, rowOf, type Settings, type Store, USUAL_SETTINGS } from "../settings/settings.ts";
 import { SLIDERS } from "../settings/limits.ts";
 import type { SettingName } from "../settings/table.ts";
 import type { TimedView } from "../view/inquiry.ts";
@@ -17,7 +17,17 @@ const SLIDING = ["size", "fieldOfView"] as const;
 /** Settings that change together with another one. With another direction up, a frozen view has no meaning. */
 const TOGETHER: Partial<Record<SettingName, Partial<Settings>>> = { up: { freeze: null } };
 
-/** Binds the controls that index.html marks with the name of their setting. */
+/** The ids of these controls in index.html. */
+const IDS = {
+  hidden: "hidden-points",
+  looks: "looks",
+  surface: "surface",
+  up: "up-axis",
+  theme: "theme",
+  size: "point-size",
+  fieldOfView: "field-of-view",
+};
+
 export function bindSettings(store: Store): void {
   for (const name of CHOICES) bindChoice(store, name);
   for (const name of SLIDING) bindSlider(store, name);
@@ -26,17 +36,14 @@ export function bindSettings(store: Store): void {
 /** A row of buttons, one for each text that the panel offers for the setting. */
 function bindChoice(store: Store, name: (typeof CHOICES)[number]): void {
   const row = rowOf(name);
-  const choice = new Segmented(idOf(name), (text) => store.change({ [name]: row.parse(text), ...TOGETHER[name] }));
+  const change = (text: string) => store.change({ [name]: row.parse(text), ...TOGETHER[name] });
+  const choice = new Segmented(IDS[name], LABELS[name], change);
   store.follow((now) => (choice.value = row.write(now[name])));
 }
 
 function bindSlider(store: Store, name: (typeof SLIDING)[number]): void {
-  const slider = new Slider(idOf(name), SLIDERS[name].text, (value) => store.change({ [name]: value }));
+  const slider = new Slider(IDS[name], SLIDERS[name], (value) => store.change({ [name]: value }));
   store.follow((now) => (slider.value = now[name]));
-}
-
-function idOf(name: SettingName): string {
-  return document.querySelector(`[data-setting="${name}"]`)!.id;
 }
 
 /** The settings in each folded section. */
@@ -54,7 +61,7 @@ export function unfoldUnusual(settings: Settings): void {
 
 /** The radius of one hull: automatic, until the slider is moved. The returned function shows that of an answer. */
 export function bindRadius(store: Store): (answer: TimedView) => void {
-  const slider = new Slider("exponent", SLIDERS.exponent.text, (exponent) => store.change({ radius: { exponent } }));
+  const slider = new Slider("exponent", SLIDERS.exponent, (exponent) => store.change({ radius: { exponent } }));
   slider.clear();
   const automatic = byId("radius-auto");
   automatic.addEventListener("click", () => store.change({ radius: { rule: "auto" } }));

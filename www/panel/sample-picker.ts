@@ -10,8 +10,6 @@ export class SamplePicker {
   /** The places where the source of the cloud is named. */
   readonly #credits = document.querySelectorAll(".credit");
   readonly #thumbnails = byId("thumbnails");
-  /** The name of the user's own file. */
-  readonly #own = byId("own");
   /** The value of the entry that is on screen. */
   #shown: string | null = null;
 
@@ -31,7 +29,6 @@ export class SamplePicker {
   }
 
   showSample(sample: Sample): void {
-    this.#removeOwn();
     this.#select.value = this.#shown = sample.name;
     this.#mark(sample.name);
     for (const credit of this.#credits) {
@@ -41,13 +38,7 @@ export class SamplePicker {
   }
 
   showOwn(name: string): void {
-    this.#removeOwn();
-    const none = new Option("Choose a sample", "", true, true);
-    none.hidden = true;
-    this.#select.prepend(none);
-    this.#own.textContent = name;
-    this.#own.hidden = false;
-    this.#shown = "";
+    this.#select.value = this.#shown = "";
     this.#mark(null);
     for (const credit of this.#credits) {
       const turn = document.createElement("button");
@@ -71,12 +62,6 @@ export class SamplePicker {
     for (const button of this.#thumbnails.children) {
       button.setAttribute("aria-pressed", String((button as HTMLElement).dataset["sample"] === name));
     }
-  }
-
-  #removeOwn(): void {
-    this.#own.hidden = true;
-    this.#own.textContent = "";
-    this.#select.querySelector('option[value=""]')?.remove();
   }
 }
 

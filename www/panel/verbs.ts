@@ -11,13 +11,13 @@ const WALK = 5;
 /** In radians. */
 const ASIDE = 0.9;
 
-/** The verbs over the picture: freeze and walk around, and where the frozen eye goes next. The panel has the same. */
+/** The verbs over the picture: compare, freeze and walk around, and where the frozen eye goes next. */
 export function bindVerbs(viewer: Viewer, store: Store, moves: Moves, turning: Turning): void {
   const compare = byId("compare");
   compare.addEventListener("click", () => store.change({ compare: store.current.compare === null ? MIDDLE : null }));
   byId("open-scan").addEventListener("click", () => byId("file").click());
   const freeze = byId("walk");
-  const [here, tooHere] = [byId("eye-here"), byId("eye-here-too")];
+  const here = byId("eye-here");
   /** Where the camera looked before. */
   let before: Vector3 | null = null;
   freeze.addEventListener("click", () => {
@@ -38,17 +38,12 @@ export function bindVerbs(viewer: Viewer, store: Store, moves: Moves, turning: T
       else turning.begin(WALK);
     });
   });
-  for (const button of [here, tooHere]) {
-    button.addEventListener("click", () => store.change({ freeze: viewer.viewpoint }));
-  }
-  const stay = byId("freeze");
-  stay.addEventListener("click", () => moves.freeze(!moves.frozen));
+  here.addEventListener("click", () => store.change({ freeze: viewer.viewpoint }));
   store.follow(({ freeze: frozen, compare: divided }) => {
     compare.setAttribute("aria-pressed", String(divided !== null));
-    for (const button of [freeze, stay]) button.setAttribute("aria-pressed", String(frozen !== null));
+    freeze.setAttribute("aria-pressed", String(frozen !== null));
     freeze.textContent = frozen ? "Unfreeze" : "Freeze and walk around";
-    stay.textContent = `${frozen ? "Unfreeze" : "Freeze"} viewpoint`;
-    here.hidden = tooHere.hidden = frozen === null;
+    here.hidden = frozen === null;
     // Keys may freeze another cloud later.
     if (!frozen) before = null;
   });

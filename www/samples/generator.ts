@@ -1,5 +1,5 @@
 import type { LoadedCloud } from "../cloud/cloud.ts";
-import type { Solid } from "./trace.ts";
+import type { Solid, Vector } from "./trace.ts";
 
 /** A module that makes a sample: the same points on every machine. */
 export interface Generator {
@@ -13,8 +13,9 @@ export interface Generator {
  * faces, or lie on the solids of a scene. Rays can be traced in this scene.
  */
 export type Truth =
-  // `origin`: where the mesh has its zero, in the coordinates of the cloud.
-  { mesh: Mesh; on: OnFaces | null; origin?: readonly number[] } | { scene: Solid<unknown>; places: Float64Array };
+  | { mesh: Mesh; on: OnFaces | null }
+  // `origin`: where the scene has its zero, in the coordinates of the cloud.
+  | { scene: Solid<unknown>; places: Float64Array; origin?: Vector };
 
 /** Points on a mesh that are not its vertices, each with the number of the face it lies on. */
 export interface OnFaces {
@@ -70,4 +71,9 @@ export function mulberry32(seed: number): () => number {
     t = (t + Math.imul(t ^ (t >>> 7), 61 | t)) ^ t;
     return ((t ^ (t >>> 14)) >>> 0) / 4294967296;
   };
+}
+
+/** Nearly a normal distribution: the sum of four uniform random numbers. */
+export function gaussian(random: () => number): number {
+  return (random() + random() + random() + random() - 2) * Math.sqrt(3);
 }

@@ -1,13 +1,6 @@
-import { box, cylinder, group, type Hit, type Solid, sphere, type Vector } from "./trace.ts";
+import { box, cylinder, group, type Hit, type Material, type Solid, sphere, type Vector } from "./trace.ts";
 import type { LoadedCloud } from "../cloud/cloud.ts";
-import { mulberry32, type Truth } from "./generator.ts";
-
-/** A material: its color, its class (numbers as in LAS files, the page's own numbers from 64 on), its reflectance. */
-export interface Material {
-  color: Vector;
-  kind: number;
-  gloss: number;
-}
+import { gaussian, mulberry32, type Truth } from "./generator.ts";
 
 const ASPHALT: Material = { color: [92, 93, 97], kind: 11, gloss: 0.3 };
 const PAINT: Material = { color: [226, 226, 220], kind: 11, gloss: 0.95 };
@@ -314,9 +307,4 @@ function shade(normal: Vector, { kind }: Material, random: () => number): number
   const light =
     0.84 + 0.16 * normal[2] + 0.14 * Math.max(0, 0.5 * normal[0] - 0.86 * normal[1]) + 0.06 * (random() - 0.5);
   return kind === 66 ? 0.8 * light : light;
-}
-
-/** Nearly a normal distribution: the sum of four uniform random numbers. */
-function gaussian(random: () => number): number {
-  return (random() + random() + random() + random() - 2) * Math.sqrt(3);
 }

@@ -2,6 +2,13 @@
 
 export type Vector = [number, number, number];
 
+/** Its color, its class (numbers as in LAS files, the page's own numbers from 64 on), its reflectance. */
+export interface Material {
+  color: Vector;
+  kind: number;
+  gloss: number;
+}
+
 export interface Hit<M> {
   distance: number;
   normal: Vector;
@@ -64,7 +71,7 @@ export function cylinder<M>([cx, cy, cz]: Vector, radius: number, height: number
 }
 
 /** Several solids as one. They are tested only if the ray meets the sphere `around`. */
-export function group<M>(solids: readonly Solid<M>[], around?: { center: Vector; radius: number }): Solid<M> {
+export function group<M>(solids: readonly Solid<M>[], around?: Ball): Solid<M> {
   return (from, along, reach) => {
     if (around) {
       const [x, y, z] = [from[0] - around.center[0], from[1] - around.center[1], from[2] - around.center[2]];
@@ -81,4 +88,26 @@ export function group<M>(solids: readonly Solid<M>[], around?: { center: Vector;
     }
     return first;
   };
+}
+
+/** A ball, and a solid that is inside it. */
+export interface Ball {
+  center: Vector;
+  radius: number;
+}
+
+/** Many solids as one: they are cut in halves again and again, along x and y in turns, so that a ray is tested against few of them. */
+export function nested<M>(things: readonly (Ball & { solid: Solid<M> })[], along: 0 | 1 = 0): Solid<M> {
+  const center = [0, 1, 2].map((axis) =>
+    things.reduce((sum, thing) => sum + thing.center[axis]! / things.length, 0),
+  ) as Vector;
+  const reachOf = (thing: Ball) =>
+    Math.hypot(...thing.center.map((value, axis) => value - center[axis]!)) + thing.radius;
+  const around = { center, radius: Math.max(...things.map(reachOf)) };
+  const solids = things.map(({ solid }) => solid);
+  if (solids.length < 3) return group(solids, around);
+  const sorted = things.toSorted((a, b) => a.center[along] - b.center[along]);
+  const half = things.length >> 1;
+  const next = along === 0 ? 1 : 0;
+  return group([nested(sorted.slice(0, half), next), nested(sorted.slice(half), next)], around);
 }

@@ -1,4 +1,4 @@
-import type { Inversion, Radius, Viewpoint } from "./limits.ts";
+import type { Box, Classes, Inversion, Radius, Viewpoint } from "./limits.ts";
 
 /** A kind of value: how it is written as text, in the address and in attributes. */
 export interface Kind<T> {
@@ -43,8 +43,8 @@ export function wholeBetween(least: number, most: number): Kind<number> {
 }
 
 /** A kind that is `null` unless it is given. */
-export function orNone<T>({ parse, values }: Kind<T>): Kind<T | null> {
-  return { parse, write: String, values };
+export function orNone<T>({ parse, write, values }: Kind<T>): Kind<T | null> {
+  return { parse, write: (value) => (value === null ? "" : write(value)), values };
 }
 
 /** A kind that takes one more word as a value. */
@@ -70,6 +70,28 @@ export const PLACE: Kind<Viewpoint> = {
   },
   write: String,
   values: "three numbers `x,y,z`",
+};
+
+/** The lower corner of a box, then the upper one. */
+export const BOX: Kind<Box> = {
+  parse: (text) => {
+    const numbers = text.split(",");
+    const [low, high] = [PLACE.parse(numbers.slice(0, 3).join()), PLACE.parse(numbers.slice(3).join())];
+    return low && high && low.every((value, axis) => value <= high[axis]!) ? [low, high] : undefined;
+  },
+  write: String,
+  values: "six numbers: the lower corner of a box, then the upper one",
+};
+
+/** The name of a column, and the classes of it. */
+export const CLASSES: Kind<Classes> = {
+  parse: (text) => {
+    const [, column, list] = /^(.+):([^:]+)$/.exec(text) ?? [];
+    const values = (list ?? "").split(",").map(parseNumber);
+    return column && values.every(Number.isFinite) ? { column, values } : undefined;
+  },
+  write: ({ column, values }) => `${column}:${values.join()}`,
+  values: "the name of a column and numbers, as in `classification:2,6`",
 };
 
 /** Any text. Only after the cloud is loaded is it known whether the cloud has something of that name. */

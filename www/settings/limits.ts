@@ -3,6 +3,8 @@
  * documents take it from here.
  */
 
+import type { Track } from "../controls/controls.ts";
+
 /** From a larger file the page shows an even share of the points. More would take many seconds and gigabytes. */
 export const MAX_POINTS = 10_000_000;
 
@@ -23,6 +25,15 @@ export const REACH = 1e6;
 
 /** x, y, z in the file's own coordinates. */
 export type Viewpoint = [number, number, number];
+
+/** The lower and the upper corner of a box along the axes. */
+export type Box = [low: Viewpoint, high: Viewpoint];
+
+/** Classes of a column that are left out. */
+export interface Classes {
+  column: string;
+  values: number[];
+}
 
 /** What happens to the hidden points. */
 export type HiddenMode = "off" | "dimmed" | "shown";
@@ -56,18 +67,9 @@ export function listed(words: readonly string[], last: "and" | "or"): string {
   return `${words.slice(0, -1).join(", ")} ${last} ${words.at(-1)!}`;
 }
 
-/** The track of a slider of the panel. The address may allow values beyond the ends of the track. */
-export interface Slider {
-  least: number;
-  most: number;
-  step: number;
-  /** The words beside the slider for a place on its track. */
-  text: (at: number) => string;
-}
-
-/** The sliders, by the name of their setting or parameter. */
+/** The sliders, by the name of their setting or parameter. The address may allow values beyond the ends of a track. */
 export const SLIDERS = {
   size: { least: 0.1, most: 5, step: 0.05, text: (at) => `${Number(at.toFixed(2))} ×` },
   fieldOfView: { ...FIELD_OF_VIEW, step: 1, text: (at) => `${Math.round(at)}°` },
   exponent: { least: 0, most: MOST_EXPONENT, step: 0.05, text: (at) => at.toFixed(2) },
-} satisfies Record<string, Slider>;
+} satisfies Record<string, Track>;

@@ -10,8 +10,6 @@ export interface Wishes {
   target: Viewpoint | null;
   /** The most points of a file that are shown. `null`: as many as the page can show. */
   points: number | null;
-  /** An octree with more points than this is streamed. `null`: not said. */
-  stream: number | null;
   /** Whether the picture turns by itself. */
   turns: boolean;
   /** The story that is told. It chooses the sample. */
@@ -77,7 +75,6 @@ export function readAddress(search: string, samples: readonly string[]): Wishes 
     view: read("view", PARAMETERS.view) ?? null,
     target: read("target", PARAMETERS.target) ?? null,
     points: read("points", PARAMETERS.points) ?? null,
-    stream: read("stream", PARAMETERS.stream) ?? null,
     turns: turn === undefined ? isFirst : turn === "1",
     isFirst,
     settings,

@@ -58,11 +58,11 @@ export class Store {
   }
 }
 
-/** The labels of the choices in the panel, by the text of each choice. index.html is made from them. */
-export const LABELS: Partial<Record<SettingName, Readonly<Record<string, string>>>> = {
+/** The labels of the choices in the panel, by the text of each choice. */
+export const LABELS = {
   looks: { 0: "One hull", 2: "2 looks", 3: "3 looks" },
   surface: { auto: "As found", clean: "Clean", noisy: "Noisy", layered: "Layered" },
   hidden: { off: "Hide", dimmed: "Ghost", shown: "Highlight" },
   up: { y: "Y", z: "Z", "-y": "−Y" },
   theme: { system: "System", dark: "Dark", light: "Light" },
-};
+} satisfies Partial<Record<SettingName, Readonly<Record<string, string>>>>;

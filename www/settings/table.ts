@@ -1,6 +1,8 @@
 import type { Up } from "../cloud/cloud.ts";
 import {
   between,
+  BOX,
+  CLASSES,
   INVERSION,
   type Kind,
   NAME,
@@ -14,6 +16,8 @@ import {
   wholeBetween,
 } from "./kinds.ts";
 import {
+  type Box,
+  type Classes,
   FIELD_OF_VIEW,
   type HiddenMode,
   type Inversion,
@@ -105,6 +109,21 @@ export const SETTINGS = {
     usual: "spherical",
     otherwise: "it is spherical",
   }),
+  box: setting<Box | null>({
+    parameter: "box",
+    ...orNone(BOX),
+    usual: null,
+    otherwise: "all points take part",
+    ofCloud: true,
+  }),
+  without: setting<Classes | null>({
+    parameter: "without",
+    ...orNone(CLASSES),
+    usual: null,
+    called: "list of classes",
+    otherwise: "all points take part",
+    ofCloud: true,
+  }),
   freeze: setting<Viewpoint | null>({
     parameter: "freeze",
     ...orNone(PLACE),
@@ -193,11 +212,6 @@ export const PARAMETERS = {
     ...wholeBetween(1, MAX_POINTS),
     called: "number of points",
     otherwise: "the largest of these is used",
-  }),
-  stream: parameter<number>({
-    ...wholeBetween(1, MAX_POINTS),
-    called: "number of points to stream from",
-    otherwise: "only octrees with more points than the page shows at once are streamed",
   }),
   turn: parameter<"0" | "1">({
     ...oneOf("0", "1"),

@@ -1,5 +1,5 @@
 import "./stories.css";
-import { isCalm, nextFrame } from "../controls/controls.ts";
+import { nextFrame } from "../controls/controls.ts";
 import { button, make } from "../tools/make.ts";
 import type { Figure, Step, Story } from "./stories.ts";
 
@@ -13,15 +13,12 @@ export interface Stage {
   ended: () => void;
 }
 
-/** Milliseconds for which a step stays. */
-const PACE = 10_000;
-
 const WRITTEN: Record<Figure, Intl.NumberFormat> = {
   distance: new Intl.NumberFormat("en-US", { minimumFractionDigits: 1, maximumFractionDigits: 1 }),
   unseen: new Intl.NumberFormat("en-US"),
 };
 
-/** Tells a story step by step. It goes on by itself until the user touches the page; then its buttons go on. */
+/** Tells a story step by step, by its buttons. */
 export class Player {
   readonly #story: Story;
   readonly #stage: Stage;
@@ -29,10 +26,8 @@ export class Player {
   readonly #back = button("Back", () => void this.#go(this.#at - 1));
   readonly #next = button("Next", () => void this.#go((this.#at + 1) % this.#story.steps.length));
   readonly #box: HTMLElement;
-  readonly #touches = new AbortController();
   #turn = new AbortController();
   #at = 0;
-  #goesOn = !isCalm();
 
   constructor(story: Story, stage: Stage) {
     this.#story = story;
@@ -41,16 +36,6 @@ export class Player {
     const heading = make("h2", {}, story.title);
     const row = make("div", { class: "row" }, this.#back, this.#next, end);
     this.#box = make("section", { id: "story", "aria-label": `Story: ${story.title}` }, heading, this.#says, row);
-    for (const touch of ["pointerdown", "wheel", "keydown"]) {
-      document.addEventListener(
-        touch,
-        () => {
-          this.#goesOn = false;
-          delete this.#box.dataset["waits"];
-        },
-        { signal: this.#touches.signal, capture: true, passive: true },
-      );
-    }
   }
 
   /** Begins, and shows the story in an element of the page. */
@@ -60,8 +45,7 @@ export class Player {
   }
 
   end(): void {
-    if (this.#touches.signal.aborted) return;
-    this.#touches.abort();
+    if (!this.#box.isConnected) return;
     this.#turn.abort();
     this.#box.remove();
     this.#stage.ended();
@@ -75,17 +59,11 @@ export class Player {
     const step = steps[to]!;
     this.#back.disabled = to === 0;
     this.#next.textContent = to === steps.length - 1 ? "Again" : "Next";
-    delete this.#box.dataset["waits"];
     // The figures of the step before are not those of this one.
     this.#say(step, () => null);
     const isHere = () => !signal.aborted;
     await this.#stage.show(step.address, signal);
     while (isHere() && !this.#say(step, this.#stage.figure)) await nextFrame();
-    const goesOn = () => isHere() && this.#goesOn && to < steps.length - 1;
-    if (!goesOn()) return;
-    this.#box.dataset["waits"] = "";
-    await new Promise((resolve) => setTimeout(resolve, PACE));
-    if (goesOn()) await this.#go(to + 1);
   }
 
   /** Says the sentence of a step. Returns whether all of its figures are known. */

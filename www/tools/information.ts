@@ -1,6 +1,7 @@
 import type { Cloud, Field, Unit } from "../cloud/cloud.ts";
+import type { Box } from "../settings/settings.ts";
 import type { Viewer } from "../view/viewer.ts";
-import { fieldText, measured, measuresOf, type Placed, shortest } from "./make.ts";
+import { fieldText, measured, measuresOf, shortest } from "./make.ts";
 import { byId } from "../controls/controls.ts";
 import { row } from "./pick.ts";
 import type { Bench } from "./tool.ts";
@@ -91,8 +92,8 @@ export class Information {
   readonly #bench: Bench;
   readonly #section = byId("info-section", HTMLDetailsElement);
   readonly #list = byId("info");
-  /** The columns that are shown: another cloud, and other classes of points, have others. Of a streamed file, its name. */
-  #shown: readonly Field[] | string | null = null;
+  /** The columns that are shown: another cloud has others. */
+  #shown: readonly Field[] | null = null;
   #upward = "";
 
   constructor(bench: Bench) {
@@ -104,10 +105,8 @@ export class Information {
     const { viewer } = this.#bench;
     if (!viewer.cloud || !this.#section.open) return;
     const upward = this.#bench.upward().join();
-    // Each view of a streamed file shows other points of it. The list stays as it was first shown.
-    const shown = viewer.scene.answer.whole ? this.#bench.name() : viewer.cloud.fields;
-    if (this.#shown === shown && this.#upward === upward) return;
-    this.#shown = shown;
+    if (this.#shown === viewer.cloud.fields && this.#upward === upward) return;
+    this.#shown = viewer.cloud.fields;
     this.#upward = upward;
     this.#list.replaceChildren(...this.#rows().map(([name, value]) => row(name, value)));
   }
@@ -115,13 +114,16 @@ export class Information {
   #rows(): [name: string, value: string][] {
     const { viewer, name } = this.#bench;
     const { scene } = viewer;
-    const { cloud, answer } = scene;
+    const { cloud } = scene;
     const { crs } = cloud.facts;
-    const ends = endsOf(scene);
+    const { decimals } = cloud.facts;
+    const text = (value: number, axis: number) =>
+      decimals ? value.toFixed(decimals[axis]) : shortest(value, scene.positions);
+    const [low, high] = endsOf(scene.positions);
     return [
       ["File", name()],
-      ["Points", pointsText(cloud, answer.whole?.total)],
-      ...["x", "y", "z"].map((axis, i): [string, string] => [axis, `${ends[i]!.low} to ${ends[i]!.high}`]),
+      ["Points", pointsText(cloud)],
+      ...["x", "y", "z"].map((axis, i): [string, string] => [axis, `${text(low[i]!, i)} to ${text(high[i]!, i)}`]),
       ...(crs?.isAngular ? [] : this.#lengths()),
       ["Coordinates", crs?.name ?? "The file names no system"],
       ...cloud.fields.map((field): [string, string] => [field.name.replaceAll("_", " "), rangeText(field)]),
@@ -132,36 +134,33 @@ export class Information {
   /** Rows with lengths. Degrees of longitude and latitude have none. */
   #lengths(): [name: string, value: string][] {
     const { scene } = this.#bench.viewer;
-    const { cloud, inquiry, answer } = scene;
+    const { cloud, inquiry } = scene;
     const { unit, scale } = measuresOf(cloud);
     const isOneUnit = scale.every((length) => length === 1);
     const size = cloud.size.map((length, axis) => measured(length * scale[axis]!, null).split("\u00a0")[0]!);
     const rows: [string, string][] = [["Size", `${size.join(" × ")}\u00a0${unit?.name ?? "units"}`]];
-    // Of an octree, only the coarser levels are here.
-    if (answer.whole) return rows;
     const { spacing } = inquiry.cloud;
     if (spacing > 0 && isOneUnit) rows.push(["Spacing", measured(Number(spacing.toPrecision(3)), unit)]);
     return rows;
   }
 }
 
-function pointsText({ count, origin }: Cloud, whole: number | undefined): string {
-  if (whole !== undefined) return `${number.format(whole)}, of which ${number.format(count)} are here`;
+function pointsText({ count, origin }: Cloud): string {
   return number.format(count) + (origin ? ", a part of the file" : "");
 }
 
-/** The least and the greatest coordinate of each axis, with the file's own digits. */
-function endsOf({ cloud, positions }: Placed): { low: string; high: string }[] {
-  return [0, 1, 2].map((axis) => {
-    let [low, high] = [Infinity, -Infinity];
-    for (let at = axis; at < positions.length; at += 3) {
-      low = Math.min(low, positions[at]!);
-      high = Math.max(high, positions[at]!);
-    }
-    const { decimals } = cloud.facts;
-    const text = (value: number) => (decimals ? value.toFixed(decimals[axis]) : shortest(value, positions));
-    return { low: text(low), high: text(high) };
-  });
+/** The corners of the box around positions. */
+export function endsOf(positions: Float32Array | Float64Array): Box {
+  const [low, high]: Box = [
+    [Infinity, Infinity, Infinity],
+    [-Infinity, -Infinity, -Infinity],
+  ];
+  for (let i = 0; i < positions.length; i++) {
+    const [value, axis] = [positions[i]!, (i % 3) as 0 | 1 | 2];
+    low[axis] = Math.min(low[axis], value);
+    high[axis] = Math.max(high[axis], value);
+  }
+  return [low, high];
 }
 
 /** The meanings of a category, or the least and the greatest number. Numbers that are not finite do not count. */

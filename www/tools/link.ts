@@ -28,10 +28,6 @@ const SAID: Record<MarkParameter, string> = {
   station: "the stations",
 };
 
-export function noMarks(): Link["parameters"] {
-  return { measure: [], label: [], station: [] };
-}
-
 export function linkOf({ measure, label, stations }: Marked): Link {
   const parameters: Link["parameters"] = {
     measure: measure.pairs.map((ends) => ends.join()),

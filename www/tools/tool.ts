@@ -2,8 +2,8 @@ import "../styles/keys.css";
 import type { Viewer } from "../view/viewer.ts";
 import type { Spot } from "./find.ts";
 import type { Marks } from "./marks.ts";
-import { byId } from "../controls/controls.ts";
-import { isKeyOf } from "../controls/keys.ts";
+import { type Action, isKeyOf, type Key, KEYS, SHEET, shownKeys } from "../controls/keys.ts";
+import { make, openDialog } from "./make.ts";
 
 /** The things that all tools share. */
 export interface Bench {
@@ -48,25 +48,25 @@ export function isTyping({ target }: Event): boolean {
   return isText || target instanceof HTMLSelectElement;
 }
 
-/** The sheet with all keys. A modal dialog keeps the focus, closes by Escape and gives the focus back by itself. */
+/** The sheet with all keys. */
 export function bindKeysSheet(): void {
-  const sheet = byId("keys", HTMLDialogElement);
-  const open = () => {
-    sheet.showModal();
-    // The only button is at the end of the sheet. With the focus on the sheet, it is read and scrolled from its beginning.
-    sheet.focus();
-    sheet.scrollTop = 0;
-  };
-  const toggle = () => {
-    if (sheet.open) sheet.close();
-    else open();
-  };
-  byId("keys-close").addEventListener("click", toggle);
-  // A click beside the sheet is a click on the dialog itself.
-  sheet.addEventListener("click", (event) => {
-    if (event.target === sheet) sheet.close();
-  });
   document.addEventListener("keydown", (event) => {
-    if (isKeyOf("sheet", event) && !isTyping(event) && !event.ctrlKey && !event.metaKey) toggle();
+    if (!isKeyOf("sheet", event) || isTyping(event) || event.ctrlKey || event.metaKey) return;
+    const open = document.querySelector<HTMLDialogElement>("#keys");
+    const sheet = SHEET.flatMap(([title, how]) => rows(title, how));
+    if (open) open.close();
+    else openDialog("keys", "Mouse, touch and keys", make("dl", {}, ...sheet));
   });
+}
+
+/** A row of the sheet. An action in braces stands for its keys, a word in brackets for a key. */
+function rows(title: string, how: string): [HTMLElement, HTMLElement] {
+  const parts = how.split(/(\{\w+\}|\[\w+\])/).flatMap((part) => {
+    if (part.startsWith("[")) return [make("kbd", {}, part.slice(1, -1))];
+    if (!part.startsWith("{")) return [part];
+    const action = part.slice(1, -1) as Action;
+    const { shift }: Key = KEYS[action];
+    return shownKeys(action).flatMap((word, i) => [...(i > 0 ? [shift ? " + " : " "] : []), make("kbd", {}, word)]);
+  });
+  return [make("dt", {}, title), make("dd", {}, ...parts)];
 }

@@ -3,7 +3,7 @@ import "../styles/divider.css";
 import { Vector3 } from "three";
 import { upVector } from "../cloud/cloud.ts";
 import { byId } from "../controls/controls.ts";
-import { type Action, isKeyOf, pressed } from "../controls/keys.ts";
+import { type Action, isKeyOf, pressed, shownKeys } from "../controls/keys.ts";
 import type { MarkParameter } from "../settings/address.ts";
 import type { Store } from "../settings/settings.ts";
 import type { Viewer } from "../view/viewer.ts";
@@ -12,10 +12,11 @@ import { Export, type ExportActions } from "./export.ts";
 import { Information, ScaleBar } from "./information.ts";
 import { type Bench, bindKeysSheet, isTyping, type Tool } from "./tool.ts";
 import { Label } from "./label.ts";
-import { linkOf, type Marked, noMarks, restore } from "./link.ts";
+import { linkOf, type Marked, restore } from "./link.ts";
 import { Marks } from "./marks.ts";
 import { Measure } from "./measure.ts";
 import { onClick, Patience, spotOf, TOLERANCE } from "./pointer.ts";
+import { PartControls } from "./part.ts";
 import { Pick } from "./pick.ts";
 import { pointAt, type Spot } from "./find.ts";
 import { Select } from "./select.ts";
@@ -34,6 +35,7 @@ export class Tools {
   readonly #information: Information;
   readonly #scaleBar: ScaleBar;
   readonly #marked: Marked;
+  readonly #part: PartControls;
   #active: Tool | null = null;
 
   constructor(viewer: Viewer, store: Store, actions: ExportActions) {
@@ -66,20 +68,26 @@ export class Tools {
     this.#marked = { measure, label, stations };
     this.#tools = [new Pick(bench), measure, select, label, stations, exports];
     for (const tool of this.#tools) byId(`tool-${tool.name}`).addEventListener("click", () => this.#toggle(tool));
+    for (const name of [...this.#tools.map((tool) => tool.name), "compare"] as const) {
+      const [key, element] = [shownKeys(name).join(" "), byId(`tool-${name}`)];
+      element.setAttribute("aria-keyshortcuts", key);
+      element.title += ` (${key})`;
+    }
     onClick(this.#canvas, (spot) => this.#click(spot));
     this.#canvas.addEventListener("dblclick", (event) => this.#goTo(spotOf(this.#canvas, event)));
     this.#compare = new Compare(viewer, store);
     this.#information = new Information(bench);
+    this.#part = new PartControls(viewer, store, () => select.indices);
+    if (viewer.cloud) this.#part.begin();
     this.#scaleBar = new ScaleBar(this.#marks.svg, viewer);
     bindKeysSheet();
     byId("tools").inert = false;
     this.#bindKeys(viewer);
   }
 
-  /** Marks and stations for the address. Those of a streamed cloud end when the camera moves. */
+  /** Marks and stations for the address. */
   get marks(): Record<MarkParameter, string[]> {
-    const isStreamed = this.#viewer.cloud !== null && this.#viewer.scene.answer.whole !== undefined;
-    return isStreamed ? noMarks() : linkOf(this.#marked).parameters;
+    return linkOf(this.#marked).parameters;
   }
 
   /** The last distance, or how many points no station sees. `null`: it is not known. */
@@ -90,8 +98,7 @@ export class Tools {
 
   /** Sets the marks of an address. Returns a sentence if some of them do not suit the cloud. */
   restore(search: string): string | null {
-    const { cloud, answer } = this.#viewer.scene;
-    return restore(search, this.#marked, answer.whole ? 0 : cloud.count)
+    return restore(search, this.#marked, this.#viewer.cloud!.count)
       ? null
       : "Some marks or stations in the address do not suit this cloud. They are left out.";
   }
@@ -105,6 +112,7 @@ export class Tools {
   /** Called when a cloud is shown. */
   begin(): void {
     for (const tool of this.#tools) tool.begin?.();
+    this.#part.begin();
   }
 
   /** Called when other points have become visible. */

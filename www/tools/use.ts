@@ -11,7 +11,8 @@ export function showUse(viewer: Viewer, store: Store, name: string, link: string
   const src = link === null ? null : new URL(link).searchParams.get("src");
   // A sample of the page is no file that another program could read.
   const file = src === null ? (link === null ? name : "scan.laz") : new URL(src, document.baseURI).href;
-  const options = JSON.stringify(inquiry.options(method))
+  // Classes are left out by a mask, which is too long for a line of code.
+  const options = JSON.stringify(inquiry.options(method), (key, value: unknown) => (key === "mask" ? undefined : value))
     .replaceAll(/"(\w+)":/g, " $1: ")
     .replace(/(.)}$/, "$1 }");
   const codes = {

@@ -21,6 +21,11 @@ export class Workshop {
     this.#load = async () => new (await import("./tools.ts")).Tools(viewer, store, actions);
   }
 
+  /** `null`: they are not there yet. */
+  get tools(): Tools | null {
+    return this.#tools;
+  }
+
   /** Marks and stations for the address. `null`: the tools are not there yet. */
   get marks(): Record<MarkParameter, string[]> | null {
     return this.#tools && this.#search === null ? this.#tools.marks : null;
@@ -30,12 +35,6 @@ export class Workshop {
   clear(): void {
     this.#search = null;
     this.#tools?.clear();
-  }
-
-  /** Called when other points of the same cloud are shown. Places belong to the points before. */
-  exchange(): void {
-    this.clear();
-    this.#tools?.begin();
   }
 
   /**
@@ -66,20 +65,5 @@ export class Workshop {
     await nextFrame();
     this.#tools = await this.#load();
     this.#tools.follow();
-  }
-
-  /** A number that the tools have found. `null`: none. */
-  figure(name: "distance" | "unseen"): number | null {
-    return this.#tools?.figure(name) ?? null;
-  }
-
-  /** Called every frame. */
-  place(): void {
-    this.#tools?.place();
-  }
-
-  /** Called when other points have become visible. */
-  answer(): void {
-    this.#tools?.follow();
   }
 }

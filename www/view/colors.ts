@@ -30,18 +30,7 @@ const VIRIDIS_STOPS = [
 const VIRIDIS = Array.from({ length: STEPS }, (_, i) => viridis(i / (STEPS - 1)));
 
 /** Tableau 10: colors for categories, easy to tell apart. */
-const TABLEAU = [
-  "#4e79a7",
-  "#f28e2c",
-  "#e15759",
-  "#76b7b2",
-  "#59a14f",
-  "#edc949",
-  "#af7aa1",
-  "#ff9da7",
-  "#9c755f",
-  "#bab0ab",
-];
+const TABLEAU = "#4e79a7 #f28e2c #e15759 #76b7b2 #59a14f #edc949 #af7aa1 #ff9da7 #9c755f #bab0ab".split(" ");
 /** Classes that everybody connects with a color. Other classes take the colors above in turn. */
 const CLASS_COLORS: Readonly<Record<string, string>> = {
   "never classified": "#9aa0a6",

@@ -1,20 +1,17 @@
 import {
-  BufferAttribute,
-  BufferGeometry,
   Color,
   DepthTexture,
   GLSL3,
-  Mesh,
   NearestFilter,
   type Object3D,
-  OrthographicCamera,
   type PerspectiveCamera,
-  Scene,
+  type Scene,
   ShaderMaterial,
   Vector2,
   type WebGLRenderer,
   WebGLRenderTarget,
 } from "three";
+import { FullScreenQuad } from "three/addons/postprocessing/Pass.js";
 
 /*
  * Eye-dome lighting (C. Boucheny, 2009). A scan has no normals for shading. So a pixel is darker the farther its
@@ -74,27 +71,34 @@ const fragmentShader = /* glsl */ `
 
   /*
    * A gap with a surface on most sides of it is closed if it is of few pixels, or smaller than the points around it: the
-   * pixel beside it that stands for it.
+   * pixel beside it that stands for it. At the edge of a surface it belongs to the one behind.
    */
   ivec2 closed(ivec2 pixel) {
     ivec2 last = textureSize(depths, 0) - 1;
-    for (float ring = 8.0; ring > 1.0; ring /= 2.0) {
+    for (float ring = 16.0; ring > 1.0; ring /= 2.0) {
       ivec2 found = pixel;
+      ivec2 before = pixel;
       float nearest = 1.0;
+      float farthest = 0.0;
       int sides = 0;
       for (int i = 0; i < 8; i++) {
         ivec2 there = clamp(ivec2(round(vec2(pixel) + ring * AROUND[i])), ivec2(0), last);
         float depth = texelFetch(depths, there, 0).r;
-        if (depth < 1.0) sides++;
+        if (depth == 1.0) continue;
+        sides++;
         if (depth < nearest) {
           nearest = depth;
+          before = there;
+        }
+        if (depth > farthest) {
+          farthest = depth;
           found = there;
         }
       }
       float width = ${SOFT_FROM.toFixed(1)} * nearness(nearest) * softness / (planes.x * planes.y);
-      if (sides > 5 && (ring == 2.0 || ring < width)) return found;
+      if (sides > 5 && (ring == 2.0 || ring < width)) return sides == 8 ? before : found;
       // Most of the background is far from any surface.
-      if (sides == 0 && ring == 8.0) return pixel;
+      if (sides == 0 && ring == 16.0) return pixel;
     }
     return pixel;
   }
@@ -139,9 +143,7 @@ export class EyeDome {
   /** The picture of all points, if it is needed. */
   #allTarget: WebGLRenderTarget | null = null;
   readonly #material: ShaderMaterial;
-  readonly #screen = new Scene();
-  readonly #cover: Mesh;
-  readonly #camera = new OrthographicCamera();
+  readonly #screen: FullScreenQuad;
   readonly #size = new Vector2();
   readonly #planes = new Vector2();
 
@@ -163,12 +165,7 @@ export class EyeDome {
         softness: { value: 1 },
       },
     });
-    // This is one triangle that covers the screen.
-    const triangle = new BufferGeometry();
-    triangle.setAttribute("position", new BufferAttribute(new Float32Array([-1, -1, 0, 3, -1, 0, -1, 3, 0]), 3));
-    this.#cover = new Mesh(triangle, this.#material);
-    this.#cover.frustumCulled = false;
-    this.#screen.add(this.#cover);
+    this.#screen = new FullScreenQuad(this.#material);
   }
 
   /** Sets the background, in display colors. */
@@ -195,18 +192,17 @@ export class EyeDome {
     if (all.alone < 1) this.#drawInto(this.#target, renderer, scene, camera);
     this.#shade(renderer, camera);
     renderer.clear();
-    renderer.render(this.#screen, this.#camera);
+    this.#screen.render(renderer);
   }
 
   compile(renderer: WebGLRenderer, points: Object3D, camera: PerspectiveCamera): void {
     renderer.setRenderTarget(this.#target);
     renderer.compile(points, camera);
     renderer.setRenderTarget(null);
-    renderer.compile(this.#screen, this.#camera);
   }
 
   dispose(): void {
-    this.#cover.geometry.dispose();
+    this.#screen.dispose();
     this.#material.dispose();
     for (const target of [this.#target, this.#allTarget]) {
       target?.depthTexture?.dispose();

@@ -58,7 +58,10 @@ export function findHome(
     const ahead = from.distanceTo(target) > 1e-6 * cloud.radius;
     return at(view.at, ahead ? target : from.add(new Vector3(...FROM[up]).setLength(-0.1 * cloud.radius)));
   }
-  if (sample?.eye) return at(sample.eye.at, inLocal(cloud, sample.eye.target));
+  if (sample?.eye) {
+    const { at: eye, target, narrow = target } = sample.eye;
+    return at(eye, inLocal(cloud, lens.aspect < 1 ? narrow : target));
+  }
 
   const body = whole ? null : cloud.body;
   const extent = body ? { middle: new Vector3(...body.middle), radius: Math.hypot(...body.size) } : all;
@@ -77,12 +80,10 @@ export function levelFrom(cloud: Cloud, station: Viewpoint, up: Up): Viewpoint {
   return inFile(cloud, from.add(ahead.setLength(cloud.radius)));
 }
 
-/** Whether the place is near enough to see the cloud. From further away the cloud is far smaller than a pixel. */
-function isInReach(cloud: Cloud, view: Viewpoint): boolean {
-  return Math.hypot(...view.map((value, axis) => value - cloud.center[axis]!)) <= REACH * cloud.radius;
-}
-
-/** Keeps the places that are in reach, and says in notes that the others are not. `asked`: "in the address". */
+/**
+ * Keeps the places from which a cloud is larger than a pixel, and says in notes that the others are not. `asked`: "in the
+ * address".
+ */
 export function inReachOnly(
   cloud: Cloud,
   view: AskedView | null,
@@ -90,32 +91,19 @@ export function inReachOnly(
   asked: string,
 ): { view: AskedView | null; places: Partial<Settings>; notes: string[] } {
   const notes: string[] = [];
-  const isNear = (place: Viewpoint, otherwise: string) => {
-    const reached = isInReach(cloud, place);
-    if (!reached && !notes.includes(otherwise)) notes.push(otherwise);
+  const isNear = (place: Viewpoint, called: string, otherwise: string) => {
+    const reached = inLocal(cloud, place).length() <= REACH * cloud.radius;
+    if (!reached) notes.push(`The ${called} ${asked} is too far away, so ${otherwise}.`);
     return reached;
   };
-  let near = view;
-  if (near && !isNear(near.at, `The view ${asked} is too far away to see anything, so the usual view is used.`)) {
-    near = null;
-  }
-  if (
-    near?.target &&
-    !isNear(near.target, `The target ${asked} is too far away to be looked at, so the camera looks at the middle.`)
-  ) {
-    near = { ...near, target: null };
-  }
-  const places: Partial<Settings> = {};
-  if (
-    freeze &&
-    !isNear(
-      freeze,
-      `The frozen viewpoint ${asked} is too far away to see anything, so the viewpoint goes with the camera.`,
-    )
-  ) {
-    places.freeze = null;
-  }
-  return { view: near, places, notes };
+  const isKept = view !== null && isNear(view.at, "view", "the usual view is used");
+  const looks = isKept && view.target && isNear(view.target, "target", "the camera looks at the middle");
+  const isFrozen = !freeze || isNear(freeze, "frozen viewpoint", "the viewpoint goes with the camera");
+  return {
+    view: isKept ? { at: view.at, target: looks ? view.target : null } : null,
+    places: isFrozen ? {} : { freeze: null },
+    notes,
+  };
 }
 
 export function inLocal({ center }: Cloud, place: Viewpoint): Vector3 {

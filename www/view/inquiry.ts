@@ -16,6 +16,7 @@ import {
   type SurfaceChoice,
   type Viewpoint,
 } from "../settings/settings.ts";
+import { classMask, type Part, partMask } from "./part.ts";
 import type { CloudPoints } from "./points.ts";
 
 /** How the library decides which points a viewpoint sees. */
@@ -29,6 +30,8 @@ export interface Method {
   thickness?: number | undefined;
   /** Only with looks. Undefined: what the library finds. */
   surface?: Exclude<SurfaceChoice, "auto"> | undefined;
+  /** Undefined: all points take part. */
+  part?: Part | undefined;
 }
 
 /** The question of what can be seen. */
@@ -43,29 +46,19 @@ export interface TimedView {
   visibility: Visibility;
   /** Why the library refused the settings, if its defaults were used instead. */
   note: string | null;
-  /** `part`: an answer about those points alone that were read of a streamed octree. */
-  kind: "operator" | "looks" | "part";
+  kind: "operator" | "looks";
   /** The time of the question (performance.now), and how long the answer took. */
   asked: number;
   milliseconds: number;
-  /** The number of points of a cloud of which only a part is in memory, and the answer in words. */
-  whole?: { total: number; sentence: string };
 }
 
 /** A map that is drawn, of this viewpoint. */
 export type Mapped = Pick<ViewQuestion, "viewpoint"> & Pick<TimedView, "milliseconds">;
 
-/** Points that were read for one viewpoint, with the answer about them. */
-export interface Detail {
-  points: CloudPoints;
-  positions: Float32Array | Float64Array;
-  inquiry: Inquiry;
-  answer: TimedView;
-}
-
 /** The operator of the paper with these settings. */
-export function operatorOf({ radius, inversion }: Settings): Method {
-  return { radius: inversion === "spherical" ? radius : null, inversion, looks: 0 };
+export function operatorOf({ radius, inversion, box, without }: Settings): Method {
+  const part = box || without ? { part: { box, without } } : {};
+  return { radius: inversion === "spherical" ? radius : null, inversion, looks: 0, ...part };
 }
 
 /** How the final answer is found with these settings. */
@@ -99,8 +92,6 @@ export class Inquiry {
   /** A map stands in for the answer, until the viewpoint rests. */
   onMap: (mapped: Mapped) => void = () => undefined;
   onError: (error: unknown) => void = () => undefined;
-  /** Points to be shown instead of the cloud; `null`: the cloud again. Returns whether they are shown. */
-  onDetail: (detail: Detail | null) => boolean = () => false;
 
   /** The cloud in its worker, also for questions that are not for the picture. */
   cloud: WorkerPointCloud;
@@ -109,7 +100,9 @@ export class Inquiry {
   readonly filter: HiddenPointFilter;
   /** The filter gets the viewpoint itself: it may be frozen, and is exactly the place that was asked for. */
   readonly #camera = new PerspectiveCamera();
-  readonly #size: number;
+  readonly #points: CloudPoints;
+  readonly #positions: Float32Array | Float64Array;
+  #part: { text: string; classes: Uint8Array | undefined; mask: Uint8Array | null } | null = null;
   /** That of the filter's own options. */
   #method: Method = { radius: null, inversion: "spherical", looks: 3 };
   #viewpoint: Viewpoint = [0, 0, 0];
@@ -117,9 +110,15 @@ export class Inquiry {
   #refused: { note: string; at: Viewpoint } | null = null;
 
   /** `another` makes a lost cloud again. */
-  constructor(cloud: WorkerPointCloud, another: () => Promise<WorkerPointCloud>, points: CloudPoints) {
+  constructor(
+    cloud: WorkerPointCloud,
+    another: () => Promise<WorkerPointCloud>,
+    points: CloudPoints,
+    positions: Float32Array | Float64Array,
+  ) {
     this.cloud = cloud;
-    this.#size = points.cloud.radius;
+    this.#points = points;
+    this.#positions = positions;
     let isFirst = true;
     this.filter = new HiddenPointFilter(points.solid, {
       cloud: async () => {
@@ -154,13 +153,9 @@ export class Inquiry {
     this.#viewpoint = viewpoint;
     const isOther = JSON.stringify(method) !== JSON.stringify(this.#method);
     // Settings that do not suit one place may suit another one.
-    const isElsewhere = this.#refused !== null && !this.busy && !isSamePlace(viewpoint, this.#refused.at, this.#size);
+    const isElsewhere =
+      this.#refused !== null && !this.busy && !isSamePlace(viewpoint, this.#refused.at, this.#points.cloud.radius);
     if (isOther || isElsewhere) this.#set(method);
-    this.look(viewpoint);
-  }
-
-  /** A frame of the filter. */
-  protected look(viewpoint: Viewpoint): void {
     this.filter.update(this.#camera, viewpoint);
   }
 
@@ -170,7 +165,7 @@ export class Inquiry {
   }
 
   /** What the library is asked for. */
-  options({ radius, inversion, looks, thickness, surface }: Method): VisibilityOptions {
+  options({ radius, inversion, looks, thickness, surface, part }: Method): VisibilityOptions {
     return {
       ...(radius === null
         ? {}
@@ -181,18 +176,33 @@ export class Inquiry {
             : radius),
       ...(inversion === "spherical" ? {} : { inversion: this.#inversion(inversion) }),
       ...(looks === 0 ? {} : { looks, thickness, surface }),
+      ...this.#within(part),
     } as unknown as VisibilityOptions;
+  }
+
+  /** 1 for each point that takes part. Null: all points do. */
+  maskOf(part: Part): Uint8Array | null {
+    return this.#masksOf(part).mask;
+  }
+
+  #masksOf({ box, without }: Part) {
+    const text = JSON.stringify([box, without]);
+    if (this.#part?.text === text) return this.#part;
+    const { cloud } = this.#points;
+    const part = { box, without };
+    return (this.#part = { text, classes: classMask(cloud, part), mask: partMask(cloud, this.#positions, part) });
+  }
+
+  #within(part: Part | undefined): Pick<VisibilityOptions, "within"> {
+    if (!part) return {};
+    const { classes: mask } = this.#masksOf(part);
+    return { within: { ...(part.box && { box: part.box }), ...(mask && { mask }) } };
   }
 
   dispose(): void {
     this.onMap = this.onView = this.onError = () => undefined;
     this.filter.dispose();
     void this.cloud.dispose();
-  }
-
-  /** The answer as others are told it. */
-  protected told(view: TimedView): TimedView {
-    return view;
   }
 
   #inversion({ exponential }: Exclude<Method["inversion"], "spherical">): LibraryInversion {
@@ -220,7 +230,7 @@ export class Inquiry {
     const hull: Method = { ...method, radius: { rule: "auto" }, looks: 0, thickness: undefined, surface: undefined };
     const question = { viewpoint: at, method: method.looks > 0 && kind === "operator" ? hull : method };
     const [asked, note] = [performance.now() - milliseconds, this.#refused?.note ?? null];
-    this.answer = this.told({ question, visibility, note, kind: kind as TimedView["kind"], asked, milliseconds });
+    this.answer = { question, visibility, note, kind: kind as TimedView["kind"], asked, milliseconds };
     this.onView(this.answer);
   }
 
@@ -234,7 +244,7 @@ export class Inquiry {
     const why = error.message.replace(/\.$/, "");
     const note = `These settings do not suit this cloud or place, so the usual ones are used: ${why}.`;
     this.#refused = { note, at: this.#viewpoint };
-    this.filter.setOptions({ settle: false });
+    this.filter.setOptions({ ...this.#within(this.#method.part), settle: false });
   }
 }
 
@@ -265,22 +275,7 @@ export function captionOf({ visibility }: TimedView, total: number, frozen: bool
   return `${rounded(total)} ${points}. ${rounded(visibility.count)} ${seen}.`;
 }
 
-/** How the answer was found. */
-export function foundBy({ visibility, question, kind, milliseconds }: TimedView, total: number): string {
-  const time = milliseconds < 10 ? milliseconds.toFixed(1) : number.format(Math.round(milliseconds));
-  const by = kind === "looks" ? `by ${question.method.looks} looks ` : "";
-  return `${percent(visibility.count, total)} of the points, found ${by}in ${time}\u00a0ms.`;
-}
-
 /** Two digits of a large number. A small one is told exactly. */
 function rounded(count: number): string {
   return number.format(count < 10_000 ? count : Number(count.toPrecision(2)));
-}
-
-/** Rounds the percentage. Only no points at all give 0 %, and only all points give 100 %. */
-function percent(count: number, total: number): string {
-  const share = total > 0 ? Math.round((100 * count) / total) : 0;
-  if (share === 0 && count > 0) return "<\u00a01\u00a0%";
-  if (share === 100 && count < total) return ">\u00a099\u00a0%";
-  return `${share}\u00a0%`;
 }

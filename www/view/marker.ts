@@ -1,66 +1,34 @@
 import {
-  BufferAttribute,
-  BufferGeometry,
+  ConeGeometry,
+  EdgesGeometry,
+  LineBasicMaterial,
   LineSegments,
   type Object3D,
   type PerspectiveCamera,
   type Quaternion,
-  ShaderMaterial,
-  Vector3,
+  type Vector3,
 } from "three";
-import { display, type Theme } from "./theme.ts";
+import type { Theme } from "./theme.ts";
 
-const vertexShader = /* glsl */ `
-  void main() {
-    gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
-  }
-`;
-
-const fragmentShader = /* glsl */ `
-  uniform vec3 color;
-  void main() {
-    gl_FragColor = vec4(color, 1.0);
-  }
-`;
-
-/** The lines of a small camera at the origin that looks along −z: what it sees up to distance 1, and a sign above. */
-function cameraLines(): Float32Array {
-  const [wide, high] = [0.51, 0.364];
-  const corners = [
-    [-wide, -high],
-    [wide, -high],
-    [wide, high],
-    [-wide, high],
-  ] as const;
-  const lines = corners.flatMap(([x, y], i) => {
-    const [nextX, nextY] = corners[(i + 1) % 4]!;
-    return [0, 0, 0, x, y, -1, x, y, -1, nextX, nextY, -1];
-  });
-  const [low, top] = [1.1 * high, 1.9 * high];
-  const roof = [-0.6 * wide, low, -1, 0.6 * wide, low, -1, 0, top, -1];
-  const [a, b, c] = [roof.slice(0, 3), roof.slice(3, 6), roof.slice(6)];
-  return Float32Array.from([...lines, ...a, ...b, ...b, ...c, ...c, ...a]);
-}
+/** A pyramid whose top is at the origin and which opens towards −z, as a camera looks. */
+const PYRAMID = new EdgesGeometry(
+  new ConeGeometry(0.62, 1, 4)
+    .rotateY(Math.PI / 4)
+    .translate(0, -0.5, 0)
+    .rotateX(Math.PI / 2)
+    .scale(1.16, 0.83, 1),
+);
 
 /** Marks the frozen viewpoint: a small camera in the accent color. Its size is a fixed share of the cloud's. */
 export class ViewpointMarker {
+  readonly #lines = new LineSegments(PYRAMID, new LineBasicMaterial());
   readonly #parent: Object3D;
-  #lines: LineSegments<BufferGeometry, ShaderMaterial> | null = null;
-  readonly #at = new Vector3();
-  #size = 0;
-  readonly #material = new ShaderMaterial({ vertexShader, fragmentShader, uniforms: { color: { value: null } } });
 
   constructor(parent: Object3D) {
     this.#parent = parent;
   }
 
   place(at: Vector3, direction: Quaternion, size: number): void {
-    this.remove();
-    this.#at.copy(at);
-    this.#size = size;
-    const geometry = new BufferGeometry();
-    geometry.setAttribute("position", new BufferAttribute(cameraLines(), 3));
-    this.#lines = new LineSegments(geometry, this.#material);
     this.#lines.position.copy(at);
     this.#lines.quaternion.copy(direction);
     this.#lines.scale.setScalar(size);
@@ -69,17 +37,16 @@ export class ViewpointMarker {
   }
 
   setTheme({ accent }: Theme): void {
-    this.#material.uniforms["color"]!.value = display(accent);
+    this.#lines.material.color.set(accent);
   }
 
   /** From inside the marker one would see nothing but its lines, so it is hidden there. */
   follow(camera: PerspectiveCamera): void {
-    if (this.#lines) this.#lines.visible = camera.position.distanceTo(this.#at) > this.#size;
+    this.#lines.visible = camera.position.distanceTo(this.#lines.position) > this.#lines.scale.x;
   }
 
   remove(): void {
-    this.#lines?.removeFromParent();
-    this.#lines?.geometry.dispose();
-    this.#lines = null;
+    this.#lines.removeFromParent();
+    this.#lines.material.dispose();
   }
 }

@@ -66,6 +66,8 @@ const vertexShader = /* glsl */ `
     float x = gl_Position.x / gl_Position.w;
     float near = (size + 16.0) * part.z;
     if (gl_Position.w > 0.0 && (x < part.x - near || x > part.y + near)) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+    // A point that is left out.
+    if (spread == 0.0) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
     tint = chosenOr(mix(ownTint(), cover, coverage));
   }
 `;
@@ -113,12 +115,13 @@ export class CloudPoints {
   #ghostly = false;
   #color: BufferAttribute | null = null;
   #chosen: BufferAttribute | null = null;
+  readonly #spread: BufferAttribute;
 
   constructor(cloud: Cloud, theme: Theme) {
     this.cloud = cloud;
     this.#theme = theme;
     const position = new BufferAttribute(cloud.local, 3);
-    const spread = new BufferAttribute(cloud.spacing.local, 1, true);
+    const spread = (this.#spread = new BufferAttribute(cloud.spacing.local, 1, true));
     // Otherwise three.js computes it from all points, once for each geometry.
     const bounds = new Sphere(new Vector3(), cloud.radius);
     const draw = (most: number, ...materials: [material: ShaderMaterial, least: number][]): Draw => {
@@ -167,6 +170,14 @@ export class CloudPoints {
     marks.fill(0);
     for (const index of indices) marks[index] = 255;
     this.#chosen.needsUpdate = true;
+  }
+
+  /** Draws only the points of a mask; `null`: all. */
+  setPart(mask: Uint8Array | null): void {
+    const { local } = this.cloud.spacing;
+    if (!mask && this.#spread.array === local) return;
+    this.#spread.array = mask ? local.map((byte, i) => (mask[i] ? byte : 0)) : local;
+    this.#spread.needsUpdate = true;
   }
 
   setUp(up: Up): void {

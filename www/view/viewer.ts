@@ -1,12 +1,12 @@
 import { Matrix4, Quaternion } from "three";
 import { HiddenPointFilter } from "hidden-point-removal/three";
-import type { Attribute, Cloud, FileStation, Up } from "../cloud/cloud.ts";
+import type { Attribute, Cloud, Up } from "../cloud/cloud.ts";
 import { prepareCloud } from "../cloud/prepare.ts";
 import type { KnownSurface } from "../samples/samples.ts";
 import type { Settings, Store, Viewpoint } from "../settings/settings.ts";
 import { colorBy, type Legend } from "./colors.ts";
 import { type Home, inFile, inLocal } from "./framing.ts";
-import { type Detail, type Inquiry, isSamePlace, type Mapped, type TimedView } from "./inquiry.ts";
+import { type Inquiry, isSamePlace, type Mapped, type TimedView } from "./inquiry.ts";
 import { ViewpointMarker } from "./marker.ts";
 import { Navigation } from "./navigation.ts";
 import { CloudPoints } from "./points.ts";
@@ -26,8 +26,6 @@ export interface Opened {
   findHome: (up: Up) => Home;
   /** The surface that its points were taken from, if it is known. */
   surface?: KnownSurface;
-  /** The places from which the points were measured, if the file says so. */
-  stations: FileStation[];
 }
 
 type Shown = Opened & {
@@ -57,16 +55,12 @@ export class Viewer {
   onLegend: (legend: Legend | null) => void = () => undefined;
   /** Called when a cloud has got another attribute to color by. */
   onAttributes: (cloud: Cloud) => void = () => undefined;
-  /** Called when points that were read for one viewpoint replace the cloud, or the cloud replaces them. */
-  onDetail: () => void = () => undefined;
   /** Called before each frame. */
   onFrame: () => void = () => undefined;
 
   readonly #store: Store;
   readonly #marker: ViewpointMarker;
   #shown: Shown | null = null;
-  /** The cloud, while points that were read for one viewpoint are shown instead of it. */
-  #overview: Shown | null = null;
   #theme = THEMES.dark;
 
   /**
@@ -147,16 +141,13 @@ export class Viewer {
   /** Removes the cloud, so that the settings for the next one can be made. */
   clear(): void {
     if (!this.#shown) return;
-    for (const shown of [this.#shown, this.#overview]) if (shown) this.#end(shown);
-    this.#shown = this.#overview = null;
-    this.stage.invalidate();
-  }
-
-  #end(shown: Shown): void {
+    const { points, inquiry } = this.#shown;
     // First, while the geometry has the filter's index, whose buffer it frees.
-    shown.points.dispose();
-    shown.inquiry.dispose();
-    remove(shown);
+    points.dispose();
+    inquiry.dispose();
+    for (const drawn of [points.solid, points.all]) drawn.removeFromParent();
+    this.#shown = null;
+    this.stage.invalidate();
   }
 
   /** Ends the picture and its worker. The canvas cannot be used again. */
@@ -169,62 +160,31 @@ export class Viewer {
 
   /** Shows a cloud, after `clear`. */
   show(opened: Opened): void {
-    const { inquiry, home } = opened;
-    const shown = (this.#shown = this.#made(opened));
-    inquiry.onDetail = (detail) => this.#exchange(shown, detail);
-    this.#enter(shown, () => this.navigation.setHome(home.pose));
-    inquiry.onView(inquiry.answer!);
-    this.#inquire();
-  }
-
-  #made(opened: Opened): Shown {
-    const { cloud, inquiry } = opened;
+    const { cloud, inquiry, home, points } = opened;
     const from = opened.answer.question.viewpoint;
-    const shown: Shown = { ...opened, from, before: from, byMap: false, frozen: null };
+    const shown: Shown = (this.#shown = { ...opened, from, before: from, byMap: false, frozen: null });
     inquiry.onView = (next) => {
-      // Its answer may come while other points are shown instead.
-      if (this.#shown !== shown) return;
-      this.#showAnswer(next);
-      this.onAnswer(next, next.whole?.total ?? cloud.count);
+      Object.assign(shown, { answer: next, from: next.question.viewpoint, byMap: false });
+      this.stage.invalidate();
+      this.onAnswer(next, cloud.count);
     };
     inquiry.onMap = (mapped) => {
-      if (this.#shown !== shown) return;
       shown.from = mapped.viewpoint;
       shown.byMap = true;
       this.stage.invalidate();
       this.onMap(mapped);
     };
     inquiry.onError = (error) => this.onError(error);
-    return shown;
-  }
-
-  /** Brings a cloud into the picture. `place` may move the camera. */
-  #enter({ points }: Shown, place: () => void): void {
     points.setTheme(this.#theme);
     this.stage.points.add(points.solid);
     this.stage.all.add(points.all);
-    place();
+    this.navigation.setHome(home.pose);
     this.#applyLook(this.#store.current);
     this.#placeMarker(this.#store.current.freeze);
     this.#setUp(this.#store.current.up);
     this.#paint(this.#store.current);
-  }
-
-  /** Shows points that were read for the present viewpoint instead of the cloud. `null`: shows the cloud again. */
-  #exchange(overview: Shown, detail: Detail | null): boolean {
-    const before = this.#shown;
-    if (before === null) return false;
-    const { home, findHome } = before;
-    Object.assign(overview, { home, findHome });
-    remove(before);
-    if (before !== overview) this.#end(before);
-    this.#overview = detail && overview;
-    this.#shown = detail ? this.#made({ ...overview, ...detail, cloud: detail.points.cloud }) : overview;
-    this.#enter(this.#shown, () => undefined);
-    this.onDetail();
-    this.#shown.inquiry.onView(this.#shown.answer);
-    this.stage.invalidate();
-    return true;
+    inquiry.onView(inquiry.answer!);
+    this.#inquire();
   }
 
   /** Sets an attribute by which the cloud can be colored. `null`: takes it away. */
@@ -306,11 +266,6 @@ export class Viewer {
     return this.#store.current.freeze ?? this.viewpoint;
   }
 
-  #showAnswer(answer: TimedView): void {
-    Object.assign(this.#shown!, { answer, from: answer.question.viewpoint, byMap: false });
-    this.stage.invalidate();
-  }
-
   #paint({ color, up }: Settings): void {
     const { cloud, points } = this.#shown!;
     const { tints, legend } = colorBy(color, cloud, up, this.#theme);
@@ -324,8 +279,9 @@ export class Viewer {
     this.stage.invalidate();
   }
 
-  #applyLook({ hidden: chosen, freeze, compare, size, fieldOfView }: Settings): void {
+  #applyLook({ hidden: chosen, freeze, compare, size, fieldOfView, box, without }: Settings): void {
     const { points, inquiry } = this.#shown!;
+    points.setPart(inquiry.maskOf({ box, without }));
     inquiry.filter.mode = chosen === "off" || compare !== null ? "hide" : "dim";
     points.setGhostly(chosen === "dimmed");
     this.stage.setAll({ alone: compare ?? 0 });
@@ -354,11 +310,6 @@ export class Viewer {
     const { middle, radius } = home.extent;
     this.stage.setExtent({ middle, radius: Math.max(radius, at.distanceTo(middle) + 0.2 * radius) });
   }
-}
-
-/** Takes a cloud out of the picture. */
-function remove({ points }: Shown): void {
-  for (const drawn of [points.solid, points.all]) drawn.removeFromParent();
 }
 
 /** The cosine of the angle, seen from the middle of the cloud, up to which one place may stand in for another. */

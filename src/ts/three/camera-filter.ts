@@ -212,7 +212,7 @@ export abstract class CameraFilter<Events extends FilterEvents> extends Sender<E
    */
   setOptions(options: AskedOptions): void {
     const settings = changedSettings(this.settings, options, this.#names);
-    if (JSON.stringify(settings.stages) === JSON.stringify(this.settings.stages)) return;
+    if (textOf(settings.stages) === textOf(this.settings.stages)) return;
     Object.assign(this.settings, settings);
     this.cameras.reconsider();
     // The next frame may take up more.
@@ -420,4 +420,17 @@ export abstract class CameraFilter<Events extends FilterEvents> extends Sender<E
 
 function disposed(): HprError {
   return new HprError("disposed", "this filter has been disposed of");
+}
+
+/** A number for each mask: as text, one of millions of points would take the memory. */
+const masks = new WeakMap<object, number>();
+let known = 0;
+
+/** Options as text. A mask that is another array is another mask. */
+function textOf(options: unknown): string {
+  return JSON.stringify(options, (_, value: unknown) => {
+    if (!ArrayBuffer.isView(value)) return value;
+    if (!masks.has(value)) masks.set(value, known++);
+    return masks.get(value);
+  });
 }
