@@ -109,6 +109,7 @@ export function merged(parts: readonly Named[]): LoadedCloud {
   const missing = new Set(columns.flatMap((own) => own.map(({ name }) => name)));
   for (const { name } of shared) missing.delete(name);
   const colors = joinedColors(clouds);
+  for (const name of ["red", "green", "blue"]) missing.delete(name);
   if (!colors && clouds.some((cloud) => cloud.colors)) missing.add("colors");
 
   const fields = shared.map(({ name }) => joinedField(name, columns, counts));
