@@ -8,6 +8,7 @@ import { describe, expect, it } from "vitest";
 
 import { georeferencedBall } from "../browser/clouds";
 import { las } from "../browser/formats";
+import { literals, packed } from "../files/valid";
 import { commandIn } from "./command-support";
 
 const { write, place, run } = commandIn("file-faults");
@@ -165,11 +166,19 @@ describe("damaged files are read as far as they go", () => {
     "ply\nformat binary_little_endian 1.0\nelement vertex 10\nproperty float x\nproperty float y\nproperty float z\nend_header\n";
   const pcd =
     "VERSION .7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 10\nHEIGHT 1\nPOINTS 10\nDATA binary\n";
+  // All x, all y, all z: without its last bytes, the last points have no z.
+  const columns = Float32Array.from({ length: 30 }, (_, i) => rows[3 * (i % 10) + Math.floor(i / 10)]!);
+  const packedRows = packed(literals(Buffer.from(columns.buffer)), 120);
   const lines = Array.from({ length: 10 }, (_, i) => `${i} ${i + 1} ${i + 2} 0.5\n`);
   const ptx = "2\n5\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n";
   const CUT: [name: string, content: Uint8Array | string, points: number][] = [
     ["a.ply", Buffer.concat([Buffer.from(head), body.subarray(0, 109)]), 9],
     ["b.pcd", Buffer.concat([Buffer.from(pcd), body.subarray(0, 109)]), 9],
+    [
+      "packed.pcd",
+      Buffer.concat([Buffer.from(pcd.replace("binary", "binary_compressed")), packedRows.subarray(0, -5)]),
+      8,
+    ],
     ["c.ply", ply(XYZ, "1 2 3\n4 5 6\n7 8\n", 10), 2],
     ["d.ptx", ptx + lines.slice(0, 9).join(""), 9],
     ["e.pts", `10\n${lines.slice(0, 9).join("")}`, 9],
@@ -179,6 +188,75 @@ describe("damaged files are read as far as they go", () => {
     const { positions, notes } = await reading(content, name, { damaged: true });
     expect([positions.length / 3, notes!.length]).toEqual([points, expect.any(Number)]);
     expect(notes!.length).toBeGreaterThan(0);
+  });
+});
+
+/** An array of NumPy. */
+function npy(type: string, shape: string, content: ArrayBufferView, order = "False"): Buffer {
+  const head = `{'descr': ${type}, 'fortran_order': ${order}, 'shape': (${shape}), }\n`;
+  const start = Buffer.from("\x93NUMPY\x01\x00..", "latin1");
+  start.writeUInt16LE(head.length, 8);
+  const { buffer, byteOffset, byteLength } = content;
+  return Buffer.concat([start, Buffer.from(head), Buffer.from(buffer as ArrayBuffer, byteOffset, byteLength)]);
+}
+
+describe("rows of numbers with hardly a header", () => {
+  const four = Float32Array.of(1, 2, 3, 0.5, 4, 5, 6, 0.25);
+  const bytes = (numbers: ArrayBufferView) => new Uint8Array(numbers.buffer as ArrayBuffer);
+  const colmap = Buffer.alloc(8 + 51 + 16 + 51);
+  colmap.writeBigUInt64LE(2n);
+  for (const [at, x, track] of [
+    [8, 1, 2],
+    [75, 4, 0],
+  ] as const) {
+    [x, x + 1, x + 2].forEach((value, axis) => colmap.writeDoubleLE(value, at + 8 + 8 * axis));
+    colmap.set([x, 20, 30], at + 32);
+    colmap.writeBigUInt64LE(BigInt(track), at + 43);
+  }
+  const text =
+    "# 3D point list with one line of data per point:\n#   POINT3D_ID, X, Y, Z, R, G, B, ERROR, TRACK[] as (IMAGE_ID, POINT2D_IDX)\n";
+  const doubles = Float64Array.of(1, 2, 3, 4, 5, 6);
+  const FILES: [name: string, content: Uint8Array | string, column?: [name: string, values: number[]]][] = [
+    ["0000.bin", bytes(four), ["intensity", [0.5, 0.25]]],
+    ["top.pcd.bin", bytes(Float32Array.of(1, 2, 3, 0.5, 7, 4, 5, 6, 0.25, 8)), ["ring", [7, 8]]],
+    ["a.npy", npy("'<f8'", "2, 3", doubles)],
+    ["b.npy", npy("'<f4'", "1, 2, 4", four), ["column 4", [0.5, 0.25]]],
+    ["c.npy", npy("'<f8'", "2, 3", Float64Array.of(1, 4, 2, 5, 3, 6), "True")],
+    ["d.npy", npy("'>i2'", "2, 3", Uint8Array.of(0, 1, 0, 2, 0, 3, 0, 4, 0, 5, 0, 6))],
+    [
+      "e.npy",
+      npy("[('i', '|u1'), ('x', '|i1'), ('y', '|i1'), ('z', '|i1')]", "2,", Uint8Array.of(9, 1, 2, 3, 8, 4, 5, 6)),
+      ["i", [9, 8]],
+    ],
+    ["points3D.bin", colmap, ["red", [1, 4]]],
+    ["points3D.txt", `${text}9 1 2 3 7 8 9 .5 1 7\n8 4 5 6 5 8 9 .5 1 7 2 9\n`, ["red", [7, 5]]],
+  ];
+  it.each(FILES)("%s", async (name, content, column) => {
+    const { positions, columns, colors } = await reading(content, name);
+    expect([...positions]).toEqual([1, 2, 3, 4, 5, 6]);
+    if (column !== undefined) expect([...columns[column[0]]!]).toEqual(column[1]);
+    expect(colors !== undefined).toBe(name.startsWith("points3D"));
+    write(name, content);
+    expect((await run(name, "--from", "9,9,9", "-o", "out.ply")).status).toBe(0);
+    // Any change of a byte is read, or refused in words.
+    for (let at = 0; at < Math.min(content.length, 300); at++) {
+      const changed = Buffer.from(content);
+      changed[at]! ^= 1 << (at % 8);
+      expect(await refused(changed, name)).toMatch(/^(read|load: .* cannot be read: .*)$/);
+    }
+  });
+
+  it.each<[string, Uint8Array | string, RegExp]>([
+    ["a.bin", "hello world, this is a text of 32", /does not hold 4 or 5 floats/],
+    ["a.bin", Uint8Array.from({ length: 64 }, (_, i) => i * 37), /does not hold 4 or 5 floats/],
+    ["images.bin", bytes(four), /readCameras reads it/],
+    ["a.npy", npy("'<f8'", "3, 2", doubles), /its shape is \(3, 2\)/],
+    ["a.npy", npy("'<f8'", "6,", doubles), /its shape is \(6,\)/],
+    ["a.npy", npy("'|O'", "2, 3", doubles), /the type "\|O", which is not read/],
+    ["a.npy", npy("'<f8'", "3, 3", doubles), /ends after 2 of the 3 points/],
+    ["a.npy", "\u0093NUMPY", /it is XML|header of NumPy|cannot be read/],
+  ])("%s is refused: %#", async (name, content, says) => {
+    expect(await refused(content, name)).toMatch(says);
   });
 });
 

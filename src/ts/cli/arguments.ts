@@ -31,8 +31,8 @@ export const HELP = `Usage: hidden-point-removal IN --from X,Y,Z -o OUT [options
 Writes those points of a file that can be seen, or their indices, a mask, their pixels
 in an image, from how many places or by which cameras each point is seen, or its color.
 
-  IN                   a LAS, LAZ, COPC, E57, PTX, PLY, PCD, XYZ, TXT, CSV or PTS file,
-                       also packed (.gz)
+  IN                   a LAS, LAZ, COPC, E57, PTX, PLY, PCD, XYZ, TXT, CSV, PTS, ASC, OBJ, GLTF,
+                       GLB, NPY or BIN (KITTI, nuScenes, points3D of COLMAP) file, also packed (.gz)
   --columns X,Y,Z      which columns of IN are x, y and z: their names or numbers from 1
 
 From where (one of the three, in the coordinates of the file):

@@ -21,6 +21,7 @@ import type { Transferred } from "../cloud/transfer.js";
 import { DEGREES } from "../formats/las/read-las.js";
 import { FormatProblem } from "../formats/problem.js";
 import { type Format as Holds, readFile } from "../formats/read.js";
+import { sourceOf } from "../files/source-of.js";
 import { compileFiles } from "../files/wasm.js";
 
 /** A file of points that has been read, and how its points are written. */
@@ -277,10 +278,10 @@ const TABLE: Format = {
   holds: "table",
   frame: tableFrame,
   hasColumns: true,
-  written: [".xyz", ".txt", ".csv", ".pts"],
+  written: [".xyz", ".txt", ".csv", ".pts", ".asc"],
 };
-const E57: Format = { holds: "e57", hasColumns: false, written: [] };
-const PTX: Format = { holds: "ptx", hasColumns: false, written: [] };
+/** Points of such a file are written in another format only. */
+const only = (holds: Holds): Format => ({ holds, hasColumns: false, written: [] });
 
 /** The formats that can be read, by the ending of a file's name. The ending of COPC is .copc.laz. */
 export const FORMATS: Record<string, Format> = {
@@ -290,10 +291,16 @@ export const FORMATS: Record<string, Format> = {
   ".txt": TABLE,
   ".csv": TABLE,
   ".pts": TABLE,
+  ".asc": TABLE,
   ".las": LAS,
   ".laz": LAS,
-  ".e57": E57,
-  ".ptx": PTX,
+  ".e57": only("e57"),
+  ".ptx": only("ptx"),
+  ".obj": only("obj"),
+  ".gltf": only("gltf"),
+  ".glb": only("gltf"),
+  ".bin": only("array"),
+  ".npy": only("array"),
 };
 
 /** The ending that tells the format of a file. `.gz` stands behind it. */
@@ -310,8 +317,15 @@ export function writtenAs(input: string, output: string): { ending: string; isCo
 }
 
 const SAID: Readonly<Record<Holds, string>> = {
-  ply: "PLY", pcd: "PCD", las: "LAS", e57: "E57", ptx: "PTX", obj: "OBJ", gltf: "glTF", table: "a table",
+  ply: "PLY", pcd: "PCD", las: "LAS", e57: "E57", ptx: "PTX", obj: "OBJ", gltf: "glTF", table: "a table", array: "an array",
 }; // prettier-ignore
+
+/** Reads the files beside a glTF file. */
+async function besideOf(name: string): Promise<Pick<Reading, "beside">> {
+  const { beside, close } = await sourceOf(name, undefined);
+  await close();
+  return { beside };
+}
 
 /** Reads the points of a file, with the bytes of each. */
 export async function readPoints(
@@ -321,7 +335,8 @@ export async function readPoints(
 ): Promise<PointFile> {
   const { holds, frame } = FORMATS[endingOf(name)]!;
   const source = bytesSource(file);
-  const cloud = await readFile({ name, source, records: true, chosen, damaged, wasm: compileFiles });
+  const asked = { name, source, records: true, chosen, damaged, wasm: compileFiles };
+  const cloud = await readFile({ ...asked, ...(holds === "gltf" && (await besideOf(name))) });
   if (cloud.format !== holds) {
     throw new FormatProblem(`it is ${SAID[cloud.format]}, and its name says ${SAID[holds]}; give it another ending`);
   }

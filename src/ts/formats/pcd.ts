@@ -5,7 +5,7 @@ import { type Axes, type Field, type Group, rowBytes, fieldsSaid, listsIn } from
 import { headerLines, type Line, restSays, wordsOf } from "./text.js";
 import type { CloudFile, Place, Reading } from "./cloud-file.js";
 import { checkEnd, endOfRows, otherColumns, readBinaryRows, readTextRows } from "./read-rows.js";
-import { bytesSource, checkByteLength } from "./source.js";
+import { bytesSource, checkByteLength, viewOf } from "./source.js";
 
 /** The largest size of a PCD header in bytes. */
 export const LONGEST_PCD_HEADER = 1 << 16;
@@ -132,50 +132,56 @@ function entry(entries: Entries, keyword: string): Line & { words: readonly stri
   return found;
 }
 
-/** The points of a compressed file, field by field: all x, all y, all z. */
-export function unpackPcd(body: Uint8Array, { name, count, fields }: Group): Uint8Array<ArrayBuffer> {
+/** The rows of a compressed file. It has all values of a field before all values of the next one: all x, all y, all z. */
+function unpackedRows(body: Uint8Array, group: Group, found: Contradictions): Uint8Array<ArrayBuffer> {
+  const { name, count, fields } = group;
   const size = rowBytes(fields) * count;
-  if (body.length < 8) throw endsEarly(0, count, name);
-  const sizes = new DataView(body.buffer, body.byteOffset, 8);
-  const [packed, unpacked] = [sizes.getUint32(0, true), sizes.getUint32(4, true)];
-  if (unpacked !== size) {
-    throw new FormatProblem(`its compressed data is ${unpacked} bytes long, and its header promises ${size}`);
+  const header = viewOf(body);
+  const [packed, length] = body.length < 8 ? [8, size] : [header.getUint32(0, true), header.getUint32(4, true)];
+  if (length !== size) {
+    throw new FormatProblem(`its compressed data is ${length} bytes long, and its header promises ${size}`);
   }
-  if (packed > body.length - 8) throw endsEarly(0, count, name);
+  const columns = unpackLzf(body.subarray(8, 8 + packed), length);
+  const last = fields.reduce((_, { count: each, type }) => each * bytesOf(type), 0);
+  // A point is whole if it has its last field.
+  const whole = Math.max(0, Math.floor((columns.length - size) / last) + count);
+  const isCut = packed > body.length - 8;
+  if (isCut) found.add(endsEarly(whole, count, name).message);
+  else if (columns.length < size) found.add(`its compressed data is damaged after ${whole} of ${count} points`);
   const says = restSays(body.subarray(8 + packed), name);
-  if (says !== undefined) throw new FormatProblem(says);
-  return unpackLzf(body.subarray(8, 8 + packed), unpacked);
+  if (says !== undefined) found.add(says);
+  return interleaved(columns, group, whole);
 }
 
-/** Unpacks LZF, the compression of PCD files. It has runs of plain bytes, and copies from up to 8 kB back. */
-export function unpackLzf(packed: Uint8Array, length: number): Uint8Array<ArrayBuffer> {
+/**
+ * Unpacks LZF, the compression of PCD files, up to the end or to the first fault. It has runs of plain bytes, and copies
+ * from up to 8 kB back.
+ */
+function unpackLzf(packed: Uint8Array, length: number): Uint8Array<ArrayBuffer> {
   // Three bytes unpack to 264 bytes at most.
-  if (length > 88 * packed.length) throw damaged();
-  const unpacked = new Uint8Array(length);
+  const most = Math.min(length, 88 * packed.length);
+  const unpacked = new Uint8Array(most);
+  // A fault behind the last byte is a fault, too.
+  const before = (to: number) => unpacked.subarray(0, Math.max(0, Math.min(to, length - 1)));
   let [from, to] = [0, 0];
   while (from < packed.length) {
     const control = packed[from++]!;
     if (control < 32) {
-      const run = packed.subarray(from, from + control + 1);
-      if (run.length <= control || to + run.length > length) throw damaged();
+      const run = packed.subarray(from, from + Math.min(control + 1, most - to));
       unpacked.set(run, to);
       from += run.length;
       to += run.length;
+      if (run.length <= control) return before(to);
       continue;
     }
     let count = (control >> 5) + 2;
     if (count === 9) count += packed[from++] ?? NaN;
     const back = ((control & 31) << 8) + (packed[from++] ?? NaN) + 1;
-    if (!(back <= to && to + count <= length)) throw damaged();
+    if (!(back <= to && to + count <= most)) return before(to);
     // Bytes are copied one by one, because a copy may repeat bytes that it has just written.
     for (let i = 0; i < count; i++, to++) unpacked[to] = unpacked[to - back]!;
   }
-  if (to !== length) throw damaged();
-  return unpacked;
-}
-
-function damaged(): FormatProblem {
-  return new FormatProblem("its compressed data is damaged");
+  return unpacked.subarray(0, to);
 }
 
 /** PCD: text, binary and compressed. */
@@ -206,24 +212,30 @@ async function readPoints(reading: Reading, { data, points: group, axes, end, li
   const { size } = reading.source;
   checkByteLength(size);
   checkByteLength(rowBytes(group.fields) * group.count);
-  const rows = interleaved(unpackPcd(await reading.source.read(end, size), group), group);
-  const { records, ...cloud } = await readBinaryRows({ ...reading, source: bytesSource(rows) }, 0, points);
-  return { ...cloud, records: { ...records, bytes: rows } };
+  const found = new Contradictions(reading.damaged);
+  const rows = unpackedRows(await reading.source.read(end, size), group, found);
+  const count = rows.length / rowBytes(group.fields);
+  const { records, ...cloud } = await readBinaryRows({ ...reading, source: bytesSource(rows) }, 0, {
+    ...points,
+    group: { ...group, count },
+  });
+  return { ...cloud, notes: [...cloud.notes, ...found.notes], records: { ...records, bytes: rows } };
 }
 
-/** Returns the data in rows. In a compressed file, all values of a field come before all values of the next field. */
-function interleaved(columns: Uint8Array, { fields, count }: Group): Uint8Array<ArrayBuffer> {
+/** The first rows of data that has all values of a field before all values of the next field. */
+export function interleaved(columns: Uint8Array, { fields, count }: Group, rows: number): Uint8Array<ArrayBuffer> {
   const size = rowBytes(fields);
-  const rows = new Uint8Array(columns.length);
+  const data = new Uint8Array(size * rows);
   let [from, offset] = [0, 0];
   for (const field of fields) {
     const width = field.count * bytesOf(field.type);
-    for (let i = 0; i < count; i++, from += width) {
-      for (let byte = 0; byte < width; byte++) rows[i * size + offset + byte] = columns[from + byte]!;
+    for (let i = 0; i < rows; i++) {
+      for (let byte = 0; byte < width; byte++) data[i * size + offset + byte] = columns[from + i * width + byte]!;
     }
+    from += count * width;
     offset += width;
   }
-  return rows;
+  return data;
 }
 
 /** A color is four bytes in one number. A text may write them as the float with the same bytes. */

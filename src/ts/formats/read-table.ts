@@ -37,7 +37,10 @@ export async function readTable(reading: Reading): Promise<CloudFile> {
   };
   let others: Other[] = [];
   let builder: CloudBuilder | undefined;
-  for await (const { texts, number, end, places } of lines(await textOf(reading), 0)) {
+  let isColmap = false;
+  for await (const { texts: given, number, end, places } of lines(await textOf(reading), 0)) {
+    isColmap ||= number === 1 && COLMAP.test(given[0] ?? "");
+    const texts = isColmap ? given.map(withoutTrack) : given;
     const at = reading.records ? places() : undefined;
     for (let line = 0; line < texts.length; line++) {
       const following = () => texts.slice(line, line + LOOK_AT);
@@ -75,6 +78,14 @@ export async function readTable(reading: Reading): Promise<CloudFile> {
     axes: columnsSaid(layout),
     areAxesPlain,
   };
+}
+
+const COLMAP = /^# 3D point list/;
+
+/** A line of COLMAP's points without the images that see the point, of which each has its own number. */
+function withoutTrack(line: string): string {
+  if (line.startsWith("#")) return /POINT3D_ID/.test(line) ? "# id x y z red green blue error" : "#";
+  return line.split(" ", 8).join(" ");
 }
 
 /** The number in a column besides x, y and z. A word that is none is missing. */

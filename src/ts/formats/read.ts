@@ -1,3 +1,4 @@
+import { isArray, readArrays } from "./arrays.js";
 import type { CloudFile, Reading } from "./cloud-file.js";
 import { withColors } from "./colors.js";
 import { unpacked } from "./gzip.js";
@@ -13,6 +14,7 @@ const READERS = {
   las: async (reading: Reading) => (await import("./las/read-las.js")).readLas(reading),
   gltf: async (reading: Reading) => (await import("./read-gltf.js")).readGltf(reading),
   e57: async (reading: Reading) => (await import("./e57.js")).readE57(reading),
+  array: readArrays,
   ply: readPly,
   pcd: readPcd,
   ptx: readPtx,
@@ -48,6 +50,7 @@ function formatOf(data: Uint8Array, name: string): Format {
   if (/^(#\s*\.PCD\b|VERSION\s|FIELDS\s)/.test(start) || (ending === "pcd" && /^(VERSION|FIELDS)\s/im.test(start))) {
     return "pcd";
   }
+  if (isArray(start, name)) return "array";
   const foreign = foreignFile(start);
   if (foreign !== undefined) throw new FormatProblem(foreign);
   if (ending === "ptx" || /^\d+\s*[\r\n]\s*\d+\s*[\r\n]/.test(start)) return "ptx";
@@ -68,7 +71,6 @@ const BEGINNINGS: readonly (readonly [begins: RegExp, says: string])[] = [
   [/^[^]{257}ustar/, "it is a TAR archive; unpack it, and read the file in it"],
   [/^(\xff\xd8\xff|\x89PNG|GIF8|RIFF[^]{4}WEBP|II\*\0|MM\0\*)/, "it is an image; images have no points"],
   [/^%PDF/, "it is a PDF document"],
-  [/^\x93NUMPY/, "it is an array of NumPy; save its x, y and z as text (numpy.savetxt), PLY or LAS"],
   [/^(pnts|b3dm|i3dm|cmpt)/, "it is a tile of 3D Tiles; read the file from which the tiles were made"],
   [/^\x89HDF/, "it is an HDF5 file; export its points as PLY, LAS or text"],
   [/^#ROSBAG/, "it is a bag of ROS; export its clouds as PCD"],
