@@ -24,6 +24,8 @@ const STRENGTH = 150;
 const DARKEST = 0.55;
 /** Points wider than this many device pixels are shaded more softly, since each would get its own dark rim. */
 const SOFT_FROM = 2;
+/** Gaps of less than this many widths of a point on either side are closed: points are missed beside silhouettes. */
+const GAP = 1.8;
 /** The distance of the neighbors in device pixels. For wide points it grows by this share of their extra width. */
 const REACH = 1.6;
 const WIDE = 0.5;
@@ -70,33 +72,26 @@ const fragmentShader = /* glsl */ `
   }
 
   /*
-   * A gap with a surface on most sides of it is closed if it is of few pixels, or smaller than the points around it: the
-   * pixel beside it that stands for it. At the edge of a surface it belongs to the one behind.
+   * A gap with a surface on most sides of it is closed if it is of few pixels, or as small as the points around it: the
+   * pixel beside it that stands for it.
    */
   ivec2 closed(ivec2 pixel) {
     ivec2 last = textureSize(depths, 0) - 1;
     for (float ring = 16.0; ring > 1.0; ring /= 2.0) {
       ivec2 found = pixel;
-      ivec2 before = pixel;
       float nearest = 1.0;
-      float farthest = 0.0;
       int sides = 0;
       for (int i = 0; i < 8; i++) {
         ivec2 there = clamp(ivec2(round(vec2(pixel) + ring * AROUND[i])), ivec2(0), last);
         float depth = texelFetch(depths, there, 0).r;
-        if (depth == 1.0) continue;
-        sides++;
+        if (depth < 1.0) sides++;
         if (depth < nearest) {
           nearest = depth;
-          before = there;
-        }
-        if (depth > farthest) {
-          farthest = depth;
           found = there;
         }
       }
       float width = ${SOFT_FROM.toFixed(1)} * nearness(nearest) * softness / (planes.x * planes.y);
-      if (sides > 5 && (ring == 2.0 || ring < width)) return sides == 8 ? before : found;
+      if (sides > 5 && (ring == 2.0 || ring < ${GAP.toFixed(1)} * width)) return found;
       // Most of the background is far from any surface.
       if (sides == 0 && ring == 16.0) return pixel;
     }
