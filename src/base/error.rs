@@ -2,7 +2,7 @@
 
 use core::fmt::{self, Write};
 
-use crate::base::MAX_POINTS;
+use crate::base::{FULL, MAX_POINTS};
 
 /// Why a cloud, a viewpoint or an option was refused.
 ///
@@ -241,6 +241,8 @@ impl Error {
                 numbers = [count as f64, MAX_POINTS as f64, 0.0];
                 "# points exceed the limit of #"
             }
+            // The small module does not merge.
+            Self::MergeRadius if !FULL => "",
             Self::MergeRadius => {
                 "merging needs the radius, in the cloud's units, or the exponential scale that all parts were seen with"
             }
