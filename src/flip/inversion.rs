@@ -98,6 +98,17 @@ impl Flip {
         length * self.scale
     }
 
+    /// 2R of a flip on a sphere.
+    pub(crate) fn diameter(&self) -> Option<f64> {
+        self.kernel.radius().map(|radius| 2.0 * radius)
+    }
+
+    /// How far a point at this distance reaches when it is flipped.
+    #[inline(never)]
+    pub(crate) fn reach_at(&self, distance: f64) -> f64 {
+        self.kernel.length(distance) * self.scale
+    }
+
     /// The least distance of a point that a hull hides which reaches so far along the point's ray;
     /// infinite where there is none. It is convex in the reach.
     #[inline(never)]

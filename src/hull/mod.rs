@@ -32,7 +32,7 @@ mod share;
 mod topology;
 
 pub(crate) use boxes::hides_box;
-pub(crate) use depth::{Window, place, turned};
+pub(crate) use depth::{Window, place};
 #[cfg(feature = "higher")]
 pub(crate) use exact_sum::Parts;
 pub(crate) use kept::KeptHull;

@@ -5,7 +5,8 @@
 use alloc::vec::Vec;
 use glam::DVec3;
 
-use crate::answers::visibility_map::options::MapOptions;
+use crate::answers::visibility_map::MapOptions;
+use crate::answers::visibility_map::levels::{NONE, padded, refill};
 use crate::base::allocation::{OutOfMemory, filled, push};
 use crate::base::real::{larger, sine_cosine, smaller, square_root};
 use crate::cloud::blocks::{BLOCK, Sphere};
@@ -14,10 +15,10 @@ use crate::hull::{Window, place};
 use crate::view::resolved::normalized;
 
 /// One in so many points of a pool shows where the cloud is seen, unless the pool has only a few points.
-const STEP: usize = 16;
+const STEP: usize = 32;
 const FEW: usize = 4096;
 /// How many points there are for each cell, of those that are about as near as the nearest one beside them.
-const NEAR_PER_CELL: f64 = 2.0;
+const NEAR_PER_CELL: f64 = 3.0;
 /// At most so many cells for each that points are in, so that a grid takes little memory.
 const MOST_EMPTY: f64 = 8.0;
 const LEAST_CELLS: f64 = 64.0;
@@ -34,8 +35,6 @@ const NEAR_EDGE: f64 = 0.95;
 const APRON: f64 = 0.06;
 /// How often cells are joined, two by two.
 pub(super) const LEVELS: usize = 5;
-/// Stands for a cell without a champion.
-const NONE: u64 = u64::MAX;
 
 /// Square cells on the sides of a cube around the viewpoint. A cell has the number of its first corner.
 #[derive(Clone, Copy, Default)]
@@ -146,8 +145,13 @@ impl Grid {
         window.first + row * (window.columns + 1) + column
     }
 
-    /// The numbers of the champions, below the squares of their distances. Directions are in single precision: any
-    /// point may be a champion.
+    /// The first cell of a side's window among those of all sides. Rows are padded.
+    pub(super) fn start(&self, side: usize) -> usize {
+        let cells = |window: &Window| window.rows * padded(window.columns);
+        self.windows[..side].iter().map(cells).sum()
+    }
+
+    /// The champions of the cells. Directions are in single precision: any point may be a champion.
     #[inline(never)]
     pub(super) fn choose(
         &self,
@@ -155,86 +159,124 @@ impl Grid {
         blocks: &[Sphere],
         viewpoint: [f64; 3],
         cone: &Cone,
-        nearest: &mut Vec<u64>,
+        cells: &mut Vec<Cell>,
     ) -> Result<(), OutOfMemory> {
-        nearest.clear();
-        nearest.try_reserve(self.corners())?;
-        nearest.resize(self.corners(), NONE);
-        let is_seen = |block: usize| cone.meets(&blocks[block], viewpoint);
-        match points {
-            Points::Single(points) => {
-                let from = viewpoint.map(|x| x as f32);
-                let relative = |p: [f32; 3]| [p[0] - from[0], p[1] - from[1], p[2] - from[2]];
-                self.choose_of(points, &is_seen, &relative, nearest);
-            }
-            Points::Double(points) => {
-                let relative =
-                    |p: [f64; 3]| core::array::from_fn(|axis| (p[axis] - viewpoint[axis]) as f32);
-                self.choose_of(points, &is_seen, &relative, nearest);
+        refill(cells, self.start(6), EMPTY)?;
+        let from = DVec3::from_array(viewpoint);
+        let far = |sphere: &Sphere| (DVec3::from_array(sphere.center) - from).length_squared();
+        let middle = blocks.iter().map(far).sum::<f64>() / blocks.len() as f64;
+        // The nearer half comes first, so that most points of the other one are not nearer than a champion.
+        for is_near in [true, false] {
+            for (number, sphere) in blocks.iter().enumerate() {
+                if (far(sphere) < middle) == is_near && cone.meets(sphere, viewpoint) {
+                    for (side, _) in self.used() {
+                        if may_be_on(side, sphere, viewpoint) {
+                            self.choose_on(side, points, number, viewpoint, cells);
+                        }
+                    }
+                }
             }
         }
         Ok(())
     }
 
-    #[inline(always)]
-    fn choose_of<P: Copy>(
+    fn choose_on(
         &self,
-        points: &[P],
-        is_seen: &dyn Fn(usize) -> bool,
-        relative: &impl Fn(P) -> [f32; 3],
-        nearest: &mut [u64],
+        side: usize,
+        points: &Points,
+        block: usize,
+        viewpoint: [f64; 3],
+        cells: &mut [Cell],
     ) {
-        /// Where this is added, the low bits are the nearest whole number.
-        const WHOLE: f32 = 12_582_912.0;
-        const BESIDE: f32 = 1.0 / (1.0 + APRON as f32);
+        let run = block * BLOCK..points.len().min((block + 1) * BLOCK);
+        match points {
+            Points::Single(points) => {
+                self.choose_of(side, &points[run], f64::from, viewpoint, cells);
+            }
+            Points::Double(points) => {
+                self.choose_of(side, &points[run], |x| x, viewpoint, cells);
+            }
+        }
+    }
+
+    #[inline(never)]
+    fn choose_of<T: Copy>(
+        &self,
+        side: usize,
+        points: &[[T; 3]],
+        double: impl Fn(T) -> f64,
+        viewpoint: [f64; 3],
+        champions: &mut [Cell],
+    ) {
+        let window = &self.windows[side];
         let cells = self.cells_per_unit as f32;
-        let windows = self.windows.map(|window| {
-            let start = |x: f64| (x * self.cells_per_unit + 0.5) as f32;
-            let sizes = [window.columns, window.rows, window.first].map(|count| count as u32);
-            (start(window.x), start(window.y), sizes)
-        });
-        let mut put = |side: usize, x: f32, y: f32, z: f32, size: f32, key: u64| {
-            let (left, low, [columns, rows, first]) = windows[side + usize::from(z < 0.0)];
-            let inverse = cells / size;
-            let whole = |x: f32| (x + WHOLE).to_bits().wrapping_sub(WHOLE.to_bits());
-            let (column, row) = (whole(x * inverse - left), whole(y * inverse - low));
-            if column < columns && row < rows {
-                let cell = (first + row * (columns + 1) + column) as usize;
-                nearest[cell] = nearest[cell].min(key);
+        let bits = self.bits();
+        // Where this is added, the low bits are a whole number of parts of a cell.
+        let whole = 12_582_912.0 / (1u32 << bits) as f32;
+        let start = |x: f64| (f64::from(whole) - x * self.cells_per_unit) as f32;
+        let (left, low) = (start(window.x), start(window.y));
+        let parts = |x: f32| x.to_bits().wrapping_sub(whole.to_bits());
+        let [columns, rows] = [window.columns, window.rows].map(|count| count as u32);
+        let champions = &mut champions[self.start(side)..];
+        let stride = padded(window.columns) as u32;
+        let mask = (1 << bits) - 1;
+        let [across, up, ahead] = axes(side);
+        let sign = if side % 2 == 0 { 1.0 } else { -1.0 };
+        for point in points {
+            let relative = |axis: usize| (double(point[axis]) - viewpoint[axis]) as f32;
+            let z = relative(ahead) * sign;
+            let inverse = cells / z;
+            let x = parts(relative(across) * inverse + left);
+            let y = parts(relative(up) * inverse + low);
+            let (column, row) = (x >> bits, y >> bits);
+            if (column < columns) & (row < rows) {
+                let champion = &mut champions[(row * stride + column) as usize];
+                // Behind the viewpoint, z has the sign bit, and is larger than any.
+                let key = u64::from(z.to_bits()) << 32 | u64::from((x & mask) << 16 | y & mask);
+                *champion = key.min(*champion);
             }
-        };
-        let mut put_all = |x: f32, y: f32, z: f32, number: u64| {
-            let (a, b, c) = (x.abs(), y.abs(), z.abs());
-            let key = u64::from((x * x + y * y + z * z).to_bits()) << 32 | number;
-            let size = if c >= a && c >= b {
-                put(0, x, y, z, c, key);
-                c
-            } else if a >= b {
-                put(2, y, z, x, a, key);
-                a
-            } else {
-                put(4, z, x, y, b, key);
-                b
-            };
-            // Near an edge of the cube a point belongs to the windows beside as well.
-            let edge = size * BESIDE;
-            if (c < size) & (c >= edge) {
-                put(0, x, y, z, c, key);
-            }
-            if (a < size) & (a >= edge) {
-                put(2, y, z, x, a, key);
-            }
-            if (b < size) & (b >= edge) {
-                put(4, z, x, y, b, key);
-            }
-        };
-        for (block, run) in points.chunks(BLOCK).enumerate() {
-            if is_seen(block) {
-                for (number, &point) in (block as u64 * BLOCK as u64..).zip(run) {
-                    let [x, y, z] = relative(point);
-                    put_all(x, y, z, number);
-                }
-            }
+        }
+    }
+
+    /// The place in a cell has so many bits.
+    pub(super) fn bits(&self) -> u32 {
+        let sizes = self
+            .windows
+            .iter()
+            .map(|window| window.columns.max(window.rows));
+        (sizes.max().unwrap_or(0) as u32).leading_zeros().min(25) - 10
+    }
+}
+
+/// A champion: z in single precision, and its place in the cell, x and y in 16 bits each. The least one is the nearest.
+pub(super) type Cell = u64;
+/// A cell without a champion.
+pub(super) const EMPTY: Cell = (NONE.to_bits() as u64) << 32;
+
+/// The axes along and up a side of the cube, and ahead of it.
+fn axes(side: usize) -> [usize; 3] {
+    let ahead = [2, 0, 1][side / 2];
+    [(ahead + 1) % 3, (ahead + 2) % 3, ahead]
+}
+
+/// False only where a sphere has no point in a window of this side, except for rounding.
+fn may_be_on(side: usize, sphere: &Sphere, viewpoint: [f64; 3]) -> bool {
+    let [x, y, z] = axes(side).map(|axis| sphere.center[axis] - viewpoint[axis]);
+    let z = if side % 2 == 0 { z } else { -z };
+    let most = z * (1.0 + APRON) + 1.5 * sphere.radius;
+    z > -sphere.radius && x.abs() <= most && y.abs() <= most
+}
+
+/// Passes the index, the place and the squared length of each corner (x, y, 1) of a window.
+#[inline(always)]
+pub(super) fn each_corner(window: &Window, cell: f64, pass: &mut impl FnMut(usize, [f64; 2], f64)) {
+    let mut place = window.first;
+    for row in 0..window.corners() / (window.columns + 1) {
+        let y = window.y + row as f64 * cell;
+        for column in 0..=window.columns {
+            let x = window.x + column as f64 * cell;
+            pass(place, [x, y], 1.0 + x * x + y * y);
+            place += 1;
         }
     }
 }

@@ -13,14 +13,21 @@
 
 use alloc::vec::Vec;
 
-use crate::answers::visibility_map::grid::Grid;
+use crate::answers::looks::Depth;
+use crate::answers::visibility_map::distances::Gauge;
+use crate::answers::visibility_map::grid::EMPTY;
+use crate::answers::visibility_map::levels::{Champions, Levels};
+use crate::answers::visibility_map::surface::{spread, widen};
 use crate::base::allocation::{OutOfMemory, filled};
 use crate::base::real::square_root;
+use crate::flip::inversion::Flip;
 
 /// The numbers before the first corner: eight for each side of the cube.
 const HEADER: usize = 48;
 /// The texture's width. The data fill whole rows.
 const ROW: usize = 256;
+/// Four numbers are written at once.
+const SPARE: usize = 4;
 const UNIT: f64 = f32::EPSILON as f64;
 /// The largest distance in a map, where points can be hidden. A test takes a cell with a larger one as
 /// unknown.
@@ -80,10 +87,28 @@ impl VisibilityMap {
             .fold(0.0, |most, x| f64::from(x.abs()).max(most))
     }
 
-    /// Takes the distances along the corners of a grid.
-    pub(super) fn set(&mut self, grid: &Grid, distances: &[f32]) -> Result<(), OutOfMemory> {
-        let len = (HEADER + distances.len()).next_multiple_of(ROW);
-        let mut data = filled(len, 0.0)?;
+    /// Writes the distances along the corners of the champions' grid.
+    #[inline(never)]
+    pub(super) fn fill(
+        &mut self,
+        champions: &Champions,
+        levels: &mut Levels,
+        flip: &Flip,
+        depth: Option<Depth>,
+    ) -> Result<(), OutOfMemory> {
+        let grid = &champions.grid;
+        let nearest = champions
+            .cells
+            .iter()
+            .fold(EMPTY, |least, &cell| cell.min(least));
+        let nearest = f32::from_bits((nearest >> 32) as u32);
+        let behind = depth.as_ref().map(|depth| depth.behind);
+        let Some(gauge) = Gauge::new(flip, f64::from(nearest), behind) else {
+            return Ok(());
+        };
+        let corners = grid.corners();
+        let len = (HEADER + corners).next_multiple_of(ROW);
+        let mut data = filled(len + SPARE, 0.0)?;
         for (to, window) in data.chunks_exact_mut(8).zip(&grid.windows) {
             let first = HEADER + window.first;
             to[..5].copy_from_slice(&[
@@ -94,7 +119,19 @@ impl VisibilityMap {
                 first as f32,
             ]);
         }
-        data[HEADER..HEADER + distances.len()].copy_from_slice(distances);
+        let distances = &mut data[HEADER..];
+        for (side, window) in grid.used() {
+            levels.fill(champions, side, gauge, &mut distances[window.first..])?;
+        }
+        distances[corners..].fill(0.0);
+        if let Some(depth) = depth {
+            let distances = &mut distances[..corners];
+            if depth.aside > 0.0 {
+                widen(grid, depth.aside, distances)?;
+            }
+            spread(grid, distances)?;
+        }
+        data.truncate(len);
         let cells = grid.cells_per_unit;
         let up = |x: f64| (x * (1.0 + UNIT)) as f32;
         self.numbers = [

@@ -1,373 +1,437 @@
-//! Upper bounds of w, the gauge of K, along the corners of a grid of directions, from champions.
+//! From champions to distances.
 //!
-//! On a side of the cube a flipped point is z·(x, y, 1), and w is convex and at most 1/z at (x, y). So in a triangle of
-//! three champions w is at most the interpolation of their 1/z. At a corner, both triangles count that the champions
-//! of the four cells around it make with a diagonal; the lower bound is the better one. The same is done with
-//! cells that are joined two by two, again and again: their triangles reach over holes. Midway between two corners,
-//! the mean of their bounds is a bound.
+//! On a side of the cube a flipped point is z·c, where c = (x, y, 1). The gauge w of K is convex and at most 1/z at c. Let S
+//! be a length, and let g = S·w − |c|, which keeps its digits in single precision: 2R − d is not much less than 2R. |c| bends
+//! by at most |δ|²/(2|c|) at a distance δ. So at a corner c, in a triangle of three champions beside it, g is at most the
+//! interpolation of gᵢ + |cᵢ − c|²/(2|c|). Both triangles count that the champions of the four cells around a corner
+//! make with a diagonal; the lower bound is the better one. The same is done with cells that are joined two by two,
+//! again and again: their triangles reach over holes. Midway between two corners, the mean of their bounds
+//! with that bend is a bound.
 //!
-//! Rounding. Let u be 2⁻⁵³, and let all lengths be in cells of the level.
+//! Rounding. Let u be 2⁻²⁴, let n be the cells a unit, at most 4096, and let all lengths be in cells of the level.
 //!
-//! - A place x = qx·(1/qz) is rounded by 2u of at most 1.1; its difference from the window's place, and the product
-//!   with the cells a unit, by 2u of at most 2.2·4096 cells. So the place of a champion, which is at most 2 away
-//!   from the corner, is wrong by e = 2⁻³⁶ at most; on joined cells by less.
-//! - A product of two edges, which is twice an area, is wrong by at most 2·(2·2e) and by rounding, less than
-//!   E = 2⁻³²·⁸. A triangle is taken only if the three at the corner are at least 2⁻³²: so the corner is certainly
-//!   inside the exact triangle.
-//! - Let r be the range of the three 1/z, and S ≥ 2⁻⁶ the sum of the three products. Then the interpolation is wrong
-//!   by at most 6E·r/S < 2⁻²³·r, which is added.
-//! - The interpolation's own operations, 1/z and the means of all levels round by less than 10⁻¹³ of the bound,
-//!   which `depths` allows for.
+//! - The coordinates of a champion are wrong by u of themselves; its place in a cell is wrong by at most
+//!   4u·1.06n for the quotient and the product, by 1.1u·n for the window's start and by 2.2u·n for the difference: by less
+//!   than b = 8u·n, also after all joins.
+//! - A product of two edges, which is twice an area, is wrong by at most 4b + 2b² + 3u < E = 5b. A triangle is taken only
+//!   if the three at the corner are at least E: then the corner is inside the exact triangle. If their sum A is at least
+//!   12E, the weights are wrong by at most 3E/(A − 3E) < 4E/A together, and this share of the range of the three is added.
+//! - |cᵢ − c|² is wrong by less than 5b.
+//! - The distance d is rounded up. |c| is wrong by less than 12u, and the operations of all levels round by less than 50u,
+//!   relative to the bound, as no number is negative. `MARGIN` is 128u.
+//! - The flip of a point rounds 1/z by less than `ROUNDING`.
 
 use alloc::vec::Vec;
-use glam::DVec3;
+use glam::{BVec4A, Vec4};
 
-use crate::answers::visibility_map::grid::{Grid, LEVELS};
-use crate::base::allocation::{OutOfMemory, filled};
-use crate::base::real::{larger, root_of_largest, square_root};
-use crate::cloud::points::Points;
-use crate::flip::inversion::Flip;
-use crate::hull::turned;
+use crate::answers::visibility_map::distances::{Gauge, Losses};
+use crate::answers::visibility_map::grid::{Cell, EMPTY, Grid, LEVELS};
+use crate::base::allocation::OutOfMemory;
+use crate::base::real::square_root;
+use crate::hull::Window;
 
 /// Stands for an unknown bound; at least [`UNKNOWN`] also after all means.
-const NONE: f64 = 1e300;
-pub(super) const UNKNOWN: f64 = 1e200;
-const INSIDE: f64 = 1.0 / (1u64 << 32) as f64;
-const LEAST_AREA: f64 = 1.0 / 64.0;
-/// How many longest edges behind its triangle a point is hidden, where a map stands in for looks.
-const EDGES: f64 = 4.0;
-const PER_RANGE: f64 = 1.0 / (1u64 << 23) as f64;
-
-/// The room for the bounds of one window, kept from map to map.
-#[derive(Default)]
-pub(super) struct Levels([Level; LEVELS + 1]);
-
-/// The champions of cells, and the bounds at their corners.
-#[derive(Default)]
-struct Level {
-    columns: usize,
-    /// 1/z of each cell's champion, and its place in the cell.
-    w: Vec<f64>,
-    x: Vec<f64>,
-    y: Vec<f64>,
-    bounds: Vec<f64>,
+pub(super) const NONE: f32 = 1e30;
+pub(super) const UNKNOWN: f32 = 1e20;
+/// Champions that are nearer are left out, and no distance in a map is less. Single precision may flush a smaller one to 0.
+pub(super) const LEAST: f32 = 1e-30;
+pub(super) const UNIT: f32 = 0.5 * f32::EPSILON;
+/// How many numbers a row takes: four are read and written at once, also beside the last corner.
+pub(super) fn padded(columns: usize) -> usize {
+    (columns + 4).next_multiple_of(4)
 }
 
-/// The champions of a map, and the room for what is made of them.
+/// The room for one window, kept from map to map.
+#[derive(Default)]
+pub(super) struct Levels {
+    levels: [Level; LEVELS + 1],
+    rows: [Row; 2],
+    losses: [Losses; 2],
+}
+
+/// The champions of a map.
 pub(super) struct Champions<'a> {
     pub grid: Grid,
-    pub nearest: &'a [u64],
-    pub points: &'a Points,
+    pub cells: &'a [Cell],
+}
+
+/// Cells that are 2^k as wide, and the bounds at their corners.
+#[derive(Default)]
+pub(super) struct Level {
+    pub columns: usize,
+    pub rows: usize,
+    /// Those of the finest level are the map's.
+    cells: Vec<Cell>,
+    pub bounds: Vec<f32>,
+    /// For looks: how far points are hidden along each corner.
+    pub surface: Vec<f32>,
+}
+
+/// The champions of a row: their places in the cells, and bounds of g.
+#[derive(Default)]
+pub(super) struct Row {
+    x: Vec<f32>,
+    y: Vec<f32>,
+    g: Vec<f32>,
+    pub d: Vec<f32>,
 }
 
 impl Levels {
-    /// The bounds at the corners of a window. Each is a bound of w, or at least `UNKNOWN`.
+    /// Writes the distances along the corners of a window, and up to three numbers more.
     #[inline(never)]
-    pub(super) fn bounds(
+    pub(super) fn fill(
         &mut self,
-        champions: &Champions,
+        &Champions { grid, cells }: &Champions,
         side: usize,
-        flip: &Flip,
-    ) -> Result<&[f64], OutOfMemory> {
-        let place = |index| flip.apply(champions.points.get(index));
-        self.take(champions, side, 1.0, &place)?;
-        for number in (0..=LEVELS).rev() {
-            let (finer, coarser) = self.0.split_at_mut(number + 1);
-            let level = &mut finer[number];
-            if let Some(coarser) = coarser.first() {
-                level.inherit(coarser, |a, b| 0.5 * (a + b));
-            }
-            level.lower(|_, _, weights, champions| interpolated(weights, champions));
-            level.even_out()?;
-        }
-        Ok(&self.0[0].bounds)
-    }
-
-    /// How far from the viewpoint the points along the corners of a window are hidden: `behind` and some longest edges
-    /// behind the triangle of champions there, of all levels the nearest; at least `UNKNOWN` where there is none.
-    #[inline(never)]
-    pub(super) fn surface(
-        &mut self,
-        champions: &Champions,
-        side: usize,
-        viewpoint: DVec3,
-        behind: f64,
-    ) -> Result<&[f64], OutOfMemory> {
-        let place = |index| Some(DVec3::from_array(champions.points.get(index)) - viewpoint);
-        // The nearest champions have the lowest −1/z.
-        self.take(champions, side, -1.0, &place)?;
-        let window = &champions.grid.windows[side];
-        for number in (0..=LEVELS).rev() {
-            let (finer, coarser) = self.0.split_at_mut(number + 1);
-            let level = &mut finer[number];
-            if let Some(coarser) = coarser.first() {
-                level.inherit(coarser, larger);
-            }
-            let cell = (1u32 << number) as f64 / champions.grid.cells_per_unit;
-            level.lower(|column, row, weights, champions| {
-                let [x, y] = [window.x + column * cell, window.y + row * cell];
-                let places = champions
-                    .map(|[right, up, w]| DVec3::new(x + right * cell, y + up * cell, 1.0) / -w);
-                let [a, b, c] = places;
-                let longest = root_of_largest([a - b, b - c, c - a].map(DVec3::length_squared));
-                let depth = -1.0 / interpolated(weights, champions);
-                if depth > 0.0 {
-                    depth * square_root(1.0 + x * x + y * y) + EDGES * longest + behind
-                } else {
-                    NONE
-                }
-            });
-        }
-        Ok(&self.0[0].bounds)
-    }
-
-    /// Takes the champions of a window, on all levels.
-    fn take(
-        &mut self,
-        champions: &Champions,
-        side: usize,
-        sign: f64,
-        place: &dyn Fn(usize) -> Option<DVec3>,
+        gauge: Gauge,
+        to: &mut [f32],
     ) -> Result<(), OutOfMemory> {
-        let window = &champions.grid.windows[side];
-        for (number, level) in self.0.iter_mut().enumerate() {
-            level.reserve(window.columns >> number, window.rows >> number)?;
+        let window = &grid.windows[side];
+        let cells = &cells[grid.start(side)..];
+        for (number, level) in self.levels.iter_mut().enumerate() {
+            let (columns, rows) = (window.columns >> number, window.rows >> number);
+            level.reserve(columns, rows, number > 0, gauge.behind.is_some())?;
         }
-        self.0[0].take(champions, side, sign, place);
+        for rows in &mut self.rows {
+            for numbers in [&mut rows.x, &mut rows.y, &mut rows.g, &mut rows.d] {
+                refill(numbers, padded(window.columns), 0.5)?;
+            }
+        }
         for number in 1..=LEVELS {
-            let (finer, coarser) = self.0.split_at_mut(number);
-            coarser[0].join(&finer[number - 1]);
+            let (finer, coarser) = self.levels.split_at_mut(number);
+            let joined = &finer[number - 1].cells;
+            let finer = if number > 1 { joined } else { cells };
+            coarser[0].join(finer, grid.bits());
         }
-        Ok(())
+        for number in (0..=LEVELS).rev() {
+            let (finer, coarser) = self.levels.split_at_mut(number + 1);
+            let level = &mut finer[number];
+            let scale = Scale::of(&grid, window, number);
+            if let Some(coarser) = coarser.first() {
+                level.inherit(coarser, &scale);
+            }
+            let finest = (number == 0).then_some(cells);
+            level.lower(finest, &scale, gauge, &mut self.rows);
+            level.even_out(&scale);
+        }
+        let scale = Scale::of(&grid, window, 0);
+        self.levels[0].distances(&scale, gauge, &mut self.losses, to)
     }
 }
 
+/// The places of the corners of a level, and what rounding does to them.
+pub(super) struct Scale {
+    x: f32,
+    y: f32,
+    pub cell: f32,
+    /// The unit of a place in a cell.
+    part: f32,
+    /// E, and the least sum of three areas. |δ|² may be larger by as much.
+    pub error: f32,
+    pub area: f32,
+}
+
+impl Scale {
+    fn of(grid: &Grid, window: &Window, number: usize) -> Self {
+        let part = 1.0 / (1u32 << grid.bits()) as f32;
+        let b = 8.0 * UNIT * grid.cells_per_unit as f32 + 3.0 * part;
+        Self {
+            x: window.x as f32,
+            y: window.y as f32,
+            cell: ((1u32 << number) as f64 / grid.cells_per_unit) as f32,
+            part,
+            error: 5.0 * b,
+            area: (60.0 * b).max(1.0 / 64.0),
+        }
+    }
+
+    /// How much |c| bends in a row of corners for each |δ|², rounded up.
+    fn bend_of(&self, row: usize) -> f32 {
+        let y = f64::from(self.y) + row as f64 * f64::from(self.cell);
+        let c = square_root(1.0 + y * y);
+        (0.5 * f64::from(self.cell) * f64::from(self.cell) / c) as f32 * (1.0 + 8.0 * UNIT)
+    }
+
+    /// |c|² at four corners of a row.
+    #[inline(always)]
+    pub(super) fn squared(&self, row: usize) -> impl Fn(usize) -> Vec4 {
+        let y = self.y + row as f32 * self.cell;
+        let &Self { x, cell, .. } = self;
+        move |column| {
+            let x = (STEPS + column as f32) * cell + x;
+            x * x + (1.0 + y * y)
+        }
+    }
+}
+
+/// Makes a vector hold `value` `count` times.
+pub(super) fn refill<T: Copy>(
+    items: &mut Vec<T>,
+    count: usize,
+    value: T,
+) -> Result<(), OutOfMemory> {
+    items.clear();
+    items.try_reserve(count)?;
+    items.resize(count, value);
+    Ok(())
+}
+
+pub(super) const STEPS: Vec4 = Vec4::new(0.0, 1.0, 2.0, 3.0);
+
 impl Level {
-    fn reserve(&mut self, columns: usize, rows: usize) -> Result<(), OutOfMemory> {
-        self.columns = columns;
-        for numbers in [&mut self.w, &mut self.x, &mut self.y] {
-            numbers.clear();
-            numbers.try_reserve(columns * rows)?;
-            numbers.resize(columns * rows, 0.0);
-        }
-        let corners = (columns + 1) * (rows + 1);
-        self.bounds.clear();
-        self.bounds.try_reserve(corners)?;
-        self.bounds.resize(corners, NONE);
-        Ok(())
-    }
-
-    #[inline(never)]
-    fn take(
+    fn reserve(
         &mut self,
-        champions: &Champions,
-        side: usize,
-        sign: f64,
-        place: &dyn Fn(usize) -> Option<DVec3>,
-    ) {
-        let &Champions { grid, nearest, .. } = &champions;
-        let (window, cells) = (&grid.windows[side], grid.cells_per_unit);
-        let mut to = 0;
-        for row in 0..window.rows {
-            let from = window.first + row * (window.columns + 1);
-            for (column, &champion) in nearest[from..from + window.columns].iter().enumerate() {
-                (self.w[to], self.x[to], self.y[to]) = (NONE, 0.5, 0.5);
-                if champion < u64::MAX
-                    && let Some(q) = place(champion as u32 as usize)
-                {
-                    let (x, y, z) = turned(side, q);
-                    let inverse = 1.0 / z;
-                    let x = (x * inverse - window.x) * cells - column as f64;
-                    let y = (y * inverse - window.y) * cells - row as f64;
-                    let is_in = |x: f64| (x - 0.5).abs() <= 1.5;
-                    // Extreme numbers are left out.
-                    if is_in(x) && is_in(y) && z > 1e-150 && z < 1e150 {
-                        (self.w[to], self.x[to], self.y[to]) = (sign * inverse, x, y);
-                    }
-                }
-                to += 1;
-            }
-        }
+        columns: usize,
+        rows: usize,
+        has_cells: bool,
+        has_surface: bool,
+    ) -> Result<(), OutOfMemory> {
+        (self.columns, self.rows) = (columns, rows);
+        let (cells, corners) = (rows * padded(columns), (rows + 1) * padded(columns));
+        refill(&mut self.cells, usize::from(has_cells) * cells, EMPTY)?;
+        refill(&mut self.bounds, corners, NONE)?;
+        refill(&mut self.surface, usize::from(has_surface) * corners, NONE)
     }
 
-    /// Takes the champions of cells that are half as wide.
+    /// Takes the champions of cells that are half as wide. A place has `bits` bits.
     #[inline(never)]
-    fn join(&mut self, finer: &Self) {
-        let across = finer.columns;
-        let places = self
-            .w
-            .chunks_exact_mut(self.columns)
-            .zip(self.x.chunks_exact_mut(self.columns));
-        let places = places.zip(self.y.chunks_exact_mut(self.columns));
-        for (row, ((w, x), y)) in places.enumerate() {
-            let low = 2 * row * across..(2 * row + 1) * across;
-            let high = low.end..low.end + across;
-            for column in 0..w.len() {
-                let at = 2 * column;
-                let mut best = (NONE, 0.0, 0.0);
-                for (run, up) in [(&low, 0.0), (&high, 1.0)] {
-                    for right in 0..2 {
-                        let at = run.start + at + right;
-                        let other = (finer.w[at], finer.x[at] + right as f64, finer.y[at] + up);
-                        let is_less = other.0 < best.0;
-                        best = (
-                            chosen(is_less, other.0, best.0),
-                            chosen(is_less, other.1, best.1),
-                            chosen(is_less, other.2, best.2),
-                        );
-                    }
+    fn join(&mut self, finer: &[Cell], bits: u32) {
+        let (across, from) = (padded(self.columns), padded(2 * self.columns));
+        let half = |cell: Cell, right: u64, up: u64| {
+            let place = (cell & 0xffff_ffff) + (right << (16 + bits)) + (up << bits);
+            cell >> 32 << 32 | place >> 1 & 0x7fff_7fff
+        };
+        for (row, to) in self.cells.chunks_exact_mut(across).enumerate() {
+            let low = &finer[2 * row * from..][..2 * self.columns];
+            let high = &finer[(2 * row + 1) * from..][..2 * self.columns];
+            let pairs = low.chunks_exact(2).zip(high.chunks_exact(2));
+            for (to, (low, high)) in to.iter_mut().zip(pairs) {
+                let one = half(low[0], 0, 0).min(half(low[1], 1, 0));
+                *to = one.min(half(high[0], 0, 1).min(half(high[1], 1, 1)));
+            }
+        }
+    }
+
+    /// Takes the bounds at the corners of larger cells, and what is between two of them.
+    #[inline(never)]
+    fn inherit(&mut self, coarser: &Self, scale: &Scale) {
+        let (across, from) = (padded(self.columns), padded(coarser.columns));
+        let has_surface = !self.surface.is_empty();
+        for row in 0..=self.rows {
+            let bend = scale.bend_of(row);
+            let (low, high) = (row / 2 * from, row.div_ceil(2) * from);
+            let twice = bend * if row % 2 == 0 { 1.0 } else { 2.0 };
+            let straight = bend * if row % 2 == 0 { 0.0 } else { 1.0 };
+            let mean = |a: f32, b: f32| 0.5 * (a + b);
+            inherit_row(
+                &coarser.bounds[low..][..=coarser.columns],
+                &coarser.bounds[high..][..=coarser.columns],
+                &mut self.bounds[row * across..][..=self.columns],
+                |a, b| mean(a, b) + straight,
+                |a, b| mean(a, b) + twice,
+            );
+            if has_surface {
+                inherit_row(
+                    &coarser.surface[low..][..=coarser.columns],
+                    &coarser.surface[high..][..=coarser.columns],
+                    &mut self.surface[row * across..][..=self.columns],
+                    most,
+                    most,
+                );
+            }
+        }
+    }
+
+    /// Lowers the bounds by the triangles of the champions.
+    #[inline(never)]
+    fn lower(&mut self, finest: Option<&[Cell]>, scale: &Scale, gauge: Gauge, rows: &mut [Row; 2]) {
+        let across = padded(self.columns);
+        let [low, high] = rows;
+        for row in 0..self.rows {
+            core::mem::swap(low, high);
+            let cells = &finest.unwrap_or(&self.cells)[row * across..][..across];
+            high.take(cells, scale, row, gauge);
+            if row == 0 {
+                continue;
+            }
+            let share = if finest.is_some() { gauge.bend } else { 1.0 };
+            let bend = share * scale.bend_of(row);
+            let line = row * across;
+            for at in (1..self.columns).step_by(4) {
+                if !(low.is_there(at) && high.is_there(at)) {
+                    continue;
                 }
-                (w[column], x[column], y[column]) = (best.0, 0.5 * best.1, 0.5 * best.2);
+                let bounds = &mut self.bounds[line + at..];
+                let corner = Corner {
+                    champions: [
+                        low.champion(at - 1, 1.0, 1.0, bend),
+                        low.champion(at, 0.0, 1.0, bend),
+                        high.champion(at, 0.0, 0.0, bend),
+                        high.champion(at - 1, 1.0, 0.0, bend),
+                    ],
+                    scale,
+                };
+                let bound = corner.bound() + bend * scale.error;
+                bound.min(Vec4::from_slice(bounds)).write_to_slice(bounds);
+                if let Some(behind) = gauge.behind {
+                    let far = corner.surface([low, high], at, scale.bend_of(row), behind);
+                    let surface = &mut self.surface[line + at..];
+                    far.min(Vec4::from_slice(surface)).write_to_slice(surface);
+                }
             }
-        }
-    }
-
-    /// Takes the bounds at the corners of larger cells, and what is `between` two of them.
-    #[inline(always)]
-    fn inherit(&mut self, coarser: &Self, between: impl Fn(f64, f64) -> f64) {
-        let from = coarser.columns + 1;
-        for (row, to) in self.bounds.chunks_exact_mut(self.columns + 1).enumerate() {
-            let low = &coarser.bounds[row / 2 * from..][..from];
-            let high = &coarser.bounds[row.div_ceil(2) * from..][..from];
-            for ((to, l), h) in to.iter_mut().step_by(2).zip(low).zip(high) {
-                *to = between(*l, *h);
-            }
-            for (column, to) in to[1..].iter_mut().step_by(2).enumerate() {
-                let rising = between(low[column], high[column + 1]);
-                let falling = between(low[column + 1], high[column]);
-                *to = least(rising, falling);
-            }
-        }
-    }
-
-    /// Lowers the bounds by the triangles of the champions. `bound`: from the column and the row of a corner, the weights
-    /// of three champions there, and x, y and 1/z of each.
-    #[inline(always)]
-    fn lower(&mut self, bound: impl Fn(f64, f64, [f64; 3], [[f64; 3]; 3]) -> f64) {
-        let across = self.columns;
-        let count = across - 1;
-        for row in 1..self.w.len() / across {
-            let champions = |row: usize, right: usize| {
-                [&self.x, &self.y, &self.w].map(|numbers| &numbers[row * across + right..][..count])
-            };
-            let low = [champions(row - 1, 0), champions(row - 1, 1)];
-            let high = [champions(row, 0), champions(row, 1)];
-            let to = &mut self.bounds[row * (across + 1) + 1..][..count];
-            lower_row(low, high, to, |column, weights, champions| {
-                bound(column as f64 + 1.0, row as f64, weights, champions)
-            });
         }
     }
 
     /// Lowers each bound to the mean of two bounds on both sides of it. A bound that was lowered already is as good.
     #[inline(never)]
-    fn even_out(&mut self) -> Result<(), OutOfMemory> {
-        let across = self.columns + 1;
-        let all = &mut self.bounds;
-        let rows = all.len() / across;
-        let mut before = filled(across, 0.0)?;
-        for row in 0..rows {
-            let here = row * across;
-            if row >= 1 && row + 1 < rows {
-                let (low, rest) = all.split_at_mut(here);
-                let (middle, high) = rest.split_at_mut(across);
-                let low = &low[here - across..];
-                let high = &high[..across];
-                lower_to_means(middle, low, high);
-                let inner = &mut middle[1..across - 1];
-                lower_to_means(inner, &low[..across - 2], &high[2..]);
-                lower_to_means(inner, &low[2..], &high[..across - 2]);
+    fn even_out(&mut self, scale: &Scale) {
+        let across = padded(self.columns);
+        for row in 0..=self.rows {
+            let bend = scale.bend_of(row);
+            let is_inside = row > 0 && row < self.rows;
+            for at in (1..self.columns).step_by(4) {
+                let here = row * across + at;
+                let number = |at: usize| Vec4::from_slice(&self.bounds[at..]);
+                let mean = |a: usize, b: usize| (number(a) + number(b)) * 0.5;
+                let mut bound = number(here).min(mean(here - 1, here + 1) + bend);
+                if is_inside {
+                    let (low, high) = (here - across, here + across);
+                    bound = bound.min(mean(low, high) + bend);
+                    let aslant = mean(low - 1, high + 1).min(mean(low + 1, high - 1));
+                    bound = bound.min(aslant + 2.0 * bend);
+                }
+                bound.write_to_slice(&mut self.bounds[here..]);
             }
-            let line = &mut all[here..here + across];
-            before.copy_from_slice(line);
-            lower_to_means(
-                &mut line[1..across - 1],
-                &before[..across - 2],
-                &before[2..],
-            );
         }
-        Ok(())
     }
 }
 
 #[inline(always)]
-fn lower_to_means(to: &mut [f64], a: &[f64], b: &[f64]) {
-    for ((to, a), b) in to.iter_mut().zip(a).zip(b) {
-        let mean = 0.5 * (a + b);
-        *to = least(*to, mean);
-    }
-}
-
-/// x, y and 1/z of the champions on the left and on the right of the corners of a row.
-type Beside<'a> = [[&'a [f64]; 3]; 2];
-
-/// Lowers the bounds at the corners of a row by the champions below and above.
-#[inline(always)]
-fn lower_row(
-    low: Beside,
-    high: Beside,
-    to: &mut [f64],
-    bound: impl Fn(usize, [f64; 3], [[f64; 3]; 3]) -> f64,
+fn inherit_row(
+    low: &[f32],
+    high: &[f32],
+    to: &mut [f32],
+    straight: impl Fn(f32, f32) -> f32,
+    aslant: impl Fn(f32, f32) -> f32,
 ) {
-    let count = to.len();
-    let [[xa, ya, wa], [xb, yb, wb]] = cut(low, count);
-    let [[xd, yd, wd], [xc, yc, wc]] = cut(high, count);
-    for i in 0..count {
-        let a = [xa[i] - 1.0, ya[i] - 1.0, wa[i]];
-        let b = [xb[i], yb[i] - 1.0, wb[i]];
-        let c = [xc[i], yc[i], wc[i]];
-        let d = [xd[i] - 1.0, yd[i], wd[i]];
+    for ((to, l), h) in to.iter_mut().step_by(2).zip(low).zip(high) {
+        *to = straight(*l, *h);
+    }
+    let pairs = low.windows(2).zip(high.windows(2));
+    for (to, (low, high)) in to[1..].iter_mut().step_by(2).zip(pairs) {
+        *to = least(aslant(low[0], high[1]), aslant(low[1], high[0]));
+    }
+}
+
+/// The smaller one of two numbers that are not negative: they are in the order of their bits. WebAssembly engines make a
+/// branch of a choice between floats, which no processor could guess here.
+#[inline(always)]
+fn least(a: f32, b: f32) -> f32 {
+    f32::from_bits(a.to_bits().min(b.to_bits()))
+}
+
+#[inline(always)]
+fn most(a: f32, b: f32) -> f32 {
+    f32::from_bits(a.to_bits().max(b.to_bits()))
+}
+
+impl Row {
+    /// Takes the champions of a row of cells.
+    #[inline(always)]
+    fn take(&mut self, cells: &[Cell], scale: &Scale, row: usize, gauge: Gauge) {
+        let start = scale.y + row as f32 * scale.cell;
+        for at in (0..cells.len()).step_by(4) {
+            let cells = [cells[at], cells[at + 1], cells[at + 2], cells[at + 3]];
+            let z = Vec4::from_array(cells.map(|cell| f32::from_bits((cell >> 32) as u32)));
+            let is_there = z.cmplt(Vec4::splat(1e16)) & z.cmpge(Vec4::splat(LEAST));
+            if !is_there.any() {
+                Vec4::splat(NONE).write_to_slice(&mut self.g[at..]);
+                continue;
+            }
+            let part = |by: u32| cells.map(|cell| (cell >> by & 0xffff) as i32 as f32);
+            let x = Vec4::from_array(part(16)) * scale.part;
+            let y = Vec4::from_array(part(0)) * scale.part;
+            let right = (x + (STEPS + at as f32)) * scale.cell + scale.x;
+            let up = y * scale.cell + start;
+            let c = (right * right + up * up + 1.0).sqrt();
+            let d = z * c;
+            let g = Vec4::select(is_there, gauge.bound(d) * c, Vec4::splat(NONE));
+            x.write_to_slice(&mut self.x[at..]);
+            y.write_to_slice(&mut self.y[at..]);
+            g.write_to_slice(&mut self.g[at..]);
+            d.write_to_slice(&mut self.d[at..]);
+        }
+    }
+
+    /// Whether there is a champion beside four corners.
+    #[inline(always)]
+    fn is_there(&self, at: usize) -> bool {
+        let g = |at: usize| Vec4::from_slice(&self.g[at..]);
+        g(at - 1).min(g(at)).cmplt(Vec4::splat(UNKNOWN)).any()
+    }
+
+    /// Champions relative to corners: their places, and bounds of g with the bend of |c|.
+    #[inline(always)]
+    fn champion(&self, at: usize, right: f32, up: f32, bend: f32) -> [Vec4; 3] {
+        let x = Vec4::from_slice(&self.x[at..]) - right;
+        let y = Vec4::from_slice(&self.y[at..]) - up;
+        let g = Vec4::from_slice(&self.g[at..]) + (x * x + y * y) * bend;
+        [x, y, g]
+    }
+}
+
+/// Four champions around each of four corners, against the clock from the one on the lower left.
+pub(super) struct Corner<'a> {
+    pub champions: [[Vec4; 3]; 4],
+    pub scale: &'a Scale,
+}
+
+/// The areas of two triangles, one at each diagonal, and which one of two they are.
+pub(super) struct Triangles {
+    pub weights: [[Vec4; 3]; 2],
+    pub picks: [BVec4A; 2],
+}
+
+impl Corner<'_> {
+    #[inline(always)]
+    pub(super) fn triangles(&self) -> Triangles {
+        let [a, b, c, d] = self.champions;
         let (ab, bc, cd, da) = (cross(a, b), cross(b, c), cross(c, d), cross(d, a));
         let (ac, bd) = (cross(a, c), cross(b, d));
-        // At each diagonal, the triangle on the side of 0.
-        let pick = |first: bool, p: [f64; 3], q: [f64; 3]| {
-            core::array::from_fn(|k| chosen(first, p[k], q[k]))
-        };
-        let right = ac < 0.0;
-        let weights = [chosen(right, bc, cd), ac.abs(), chosen(right, ab, da)];
-        let one = bound(i, weights, [a, pick(right, b, d), c]);
-        let above = bd < 0.0;
-        let weights = [chosen(above, cd, da), bd.abs(), chosen(above, bc, ab)];
-        let two = bound(i, weights, [b, pick(above, c, a), d]);
-        to[i] = least(to[i], least(one, two));
+        // At each diagonal, the triangle on the side of the corner.
+        let (right, above) = (ac.cmplt(Vec4::ZERO), bd.cmplt(Vec4::ZERO));
+        let pick = Vec4::select;
+        Triangles {
+            weights: [
+                [pick(right, bc, cd), ac.abs(), pick(right, ab, da)],
+                [pick(above, cd, da), bd.abs(), pick(above, bc, ab)],
+            ],
+            picks: [right, above],
+        }
+    }
+
+    /// The lower one of two interpolations of g, with what their errors may be.
+    #[inline(always)]
+    fn bound(&self) -> Vec4 {
+        let [a, b, c, d] = self.champions.map(|champion| champion[2]);
+        let Triangles { weights, picks } = self.triangles();
+        let one = self.interpolated(weights[0], [a, Vec4::select(picks[0], b, d), c]);
+        let two = self.interpolated(weights[1], [b, Vec4::select(picks[1], c, a), d]);
+        one.min(two)
+    }
+
+    #[inline(always)]
+    fn interpolated(&self, [p, q, r]: [Vec4; 3], [of_p, of_q, of_r]: [Vec4; 3]) -> Vec4 {
+        let &Scale { error, area, .. } = self.scale;
+        let sum = p + q + r;
+        let range = (of_q - of_p).abs() + (of_r - of_p).abs();
+        let bound = (p * of_p + q * of_q + r * of_r + range * (4.0 * error)) / sum;
+        let is_sure = p.min(q).min(r).cmpge(Vec4::splat(error)) & sum.cmpge(Vec4::splat(area));
+        Vec4::select(is_sure, bound, Vec4::splat(NONE))
     }
 }
 
-/// One of two numbers. WebAssembly engines make a branch of a choice between floats, which no processor could guess here.
 #[inline(always)]
-fn chosen(is_first: bool, first: f64, second: f64) -> f64 {
-    let keep = u64::from(is_first).wrapping_neg();
-    f64::from_bits(first.to_bits() & keep | second.to_bits() & !keep)
-}
-
-/// The smaller one of two numbers that are not negative: they are in the order of their bits.
-#[inline(always)]
-fn least(a: f64, b: f64) -> f64 {
-    f64::from_bits(a.to_bits().min(b.to_bits()))
-}
-
-/// Of equal lengths, as the compiler must know to leave out checks.
-#[inline(always)]
-fn cut(sides: Beside, count: usize) -> Beside {
-    let [[a, b, c], [d, e, f]] = sides;
-    [
-        [&a[..count], &b[..count], &c[..count]],
-        [&d[..count], &e[..count], &f[..count]],
-    ]
-}
-
-#[inline(always)]
-fn cross(p: [f64; 3], q: [f64; 3]) -> f64 {
+fn cross(p: [Vec4; 3], q: [Vec4; 3]) -> Vec4 {
     p[0] * q[1] - p[1] * q[0]
-}
-
-/// The interpolation of three champions' 1/z with three weights, and what its error may be.
-#[inline(always)]
-fn interpolated([p, q, r]: [f64; 3], champions: [[f64; 3]; 3]) -> f64 {
-    let [of_p, of_q, of_r] = champions.map(|champion| champion[2]);
-    let sum = p + q + r;
-    let (to_q, to_r) = (of_q - of_p, of_r - of_p);
-    let bound = of_p + (q * to_q + r * to_r) / sum + PER_RANGE * (to_q.abs() + to_r.abs());
-    let is_sure = (p >= INSIDE) & (q >= INSIDE) & (r >= INSIDE) & (sum >= LEAST_AREA);
-    chosen(is_sure, bound, NONE)
 }

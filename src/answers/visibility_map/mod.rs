@@ -5,31 +5,65 @@
 //! SUMMARY  The nearest point in each cell of the grid is its champion (`grid`), of an even sample
 //!          of the cloud (`pool`). K contains all flipped points, so what the triangles of
 //!          champions hide is hidden for certain (`levels`). The bounds become distances
-//!          (`depths`), or those of surfaces where the map stands in for looks (`surface`).
+//!          (`distances`), or those of surfaces where the map stands in for looks (`surface`).
 //!          One comparison in single precision tests a point (`hides`).
 
-mod depths;
+mod distances;
 mod grid;
 mod hides;
 mod levels;
-mod options;
 pub(crate) mod pool;
 mod surface;
 
 use crate::answers::looks::{look_of_map, looked_at};
 use crate::answers::memory::ViewMemory;
-use crate::base::error::Error;
+use crate::base::MAX_POINTS;
+use crate::base::error::{Error, in_range};
 use crate::cloud::point_cloud::PointCloud;
 use crate::cloud::points::Points;
 use crate::cloud::spatial::Bounds;
 use crate::view::options::Options;
 use crate::view::refusals::QuestionKind;
-use crate::view::resolved::{check_viewpoint, looks};
+use crate::view::resolved::{check_viewpoint, looks, normalized};
 pub use hides::VisibilityMap;
-pub use options::MapOptions;
 
 /// Distances in a map are between the first number and the last one, in the cloud's units.
 const UNITS: core::ops::Range<f64> = 1e-15..1e15;
+
+/// The size of a [`VisibilityMap`](crate::VisibilityMap), and its directions.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MapOptions {
+    /// How many points of the cloud are looked through at most; at least 16. With `towards` it is three times as many.
+    /// The larger the cloud, the more are looked through: 200,000 and one in 16.
+    pub points: usize,
+    /// The only directions that the map is of: a direction, and the full opening of a cone
+    /// around it, in degrees. [`Camera::cone`](crate::Camera::cone) gives those of a camera.
+    pub towards: Option<([f64; 3], f64)>,
+    /// What positions in a shader are relative to. Without a choice it is 0 for a cloud in single
+    /// precision, and the middle of the cloud's box otherwise.
+    pub origin: Option<[f64; 3]>,
+}
+
+impl Default for MapOptions {
+    fn default() -> Self {
+        Self {
+            points: 750_000,
+            towards: None,
+            origin: None,
+        }
+    }
+}
+
+impl MapOptions {
+    fn check(&self) -> Result<(), Error> {
+        in_range("points", self.points as f64, 16.0, MAX_POINTS as f64)?;
+        if let Some((direction, angle)) = self.towards {
+            normalized(direction).ok_or(Error::Direction { direction })?;
+            in_range("towards angle", angle, f64::MIN_POSITIVE, 360.0)?;
+        }
+        self.origin.map_or(Ok(()), check_viewpoint)
+    }
+}
 
 impl PointCloud {
     /// A map that shows which points are certainly hidden from `viewpoint`: cheap to make, and
@@ -89,7 +123,7 @@ impl PointCloud {
             if is_in_units(view.farthest)
                 && let Some((champions, levels, _)) = maps.champions(self, false, viewpoint, map)?
             {
-                made.fill(&champions, levels, &view.flip)?;
+                made.fill(&champions, levels, &view.flip, None)?;
             }
             return Ok(made);
         }
@@ -104,7 +138,7 @@ impl PointCloud {
             let (flip, depth, farthest) =
                 look_of_map(self, survey.as_ref(), viewpoint, thickness, apart)?;
             if is_in_units(farthest) {
-                made.fill_by_surface(&champions, levels, &flip, &depth)?;
+                made.fill(&champions, levels, &flip, Some(depth))?;
             }
         }
         Ok(made)

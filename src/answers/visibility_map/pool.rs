@@ -2,9 +2,9 @@
 
 use alloc::vec::Vec;
 
-use crate::answers::visibility_map::grid::{Cone, Grid};
+use crate::answers::visibility_map::MapOptions;
+use crate::answers::visibility_map::grid::{Cell, Cone, Grid};
 use crate::answers::visibility_map::levels::{Champions, Levels};
-use crate::answers::visibility_map::options::MapOptions;
 use crate::base::allocation::{OutOfMemory, with_capacity};
 use crate::base::real::square_root;
 use crate::cloud::blocks::Blocks;
@@ -13,8 +13,8 @@ use crate::cloud::points::Points;
 
 /// A map looks through so many points and one in [`GROWS`] of the cloud, as far as the options let it, and through
 /// [`IN_CONE`] times as many of which only a cone counts.
-const LEAST: usize = 250_000;
-const GROWS: usize = 20;
+const LEAST: usize = 200_000;
+const GROWS: usize = 16;
 const IN_CONE: usize = 3;
 
 /// An even sample of a cloud.
@@ -29,7 +29,7 @@ struct Pool {
 #[derive(Default)]
 pub(crate) struct MapMemory {
     pool: Option<Pool>,
-    nearest: Vec<u64>,
+    cells: Vec<Cell>,
     levels: Levels,
 }
 
@@ -45,7 +45,7 @@ impl MapMemory {
     ) -> Result<Option<(Champions<'a>, &'a mut Levels, f64)>, OutOfMemory> {
         let Self {
             pool,
-            nearest,
+            cells,
             levels,
         } = self;
         let all = &cloud.sequence.points;
@@ -70,14 +70,9 @@ impl MapMemory {
         let Some(grid) = Grid::of(points, viewpoint, &cone)? else {
             return Ok(None);
         };
-        grid.choose(points, &blocks.levels[0], viewpoint, &cone, nearest)?;
+        grid.choose(points, &blocks.levels[0], viewpoint, &cone, cells)?;
         let apart = square_root(all.len() as f64 / points.len() as f64);
-        let champions = Champions {
-            grid,
-            nearest,
-            points,
-        };
-        Ok(Some((champions, levels, apart)))
+        Ok(Some((Champions { grid, cells }, levels, apart)))
     }
 }
 

@@ -6,55 +6,65 @@
 //! that the gauge of a loose hull hides as well. This is not proved; docs/LOOKS.md tells
 //! how often it is wrong.
 
-use crate::answers::looks::Depth;
-use crate::answers::visibility_map::depths::{NOWHERE, each_corner, stored};
-use crate::answers::visibility_map::grid::Grid;
-use crate::answers::visibility_map::hides::VisibilityMap;
-use crate::answers::visibility_map::levels::{Champions, Levels, UNKNOWN};
-use crate::base::allocation::{OutOfMemory, copied, filled, with_capacity};
-use crate::base::real::{larger, smaller, square_root};
-use crate::flip::inversion::Flip;
+use glam::Vec4;
 
+use crate::answers::visibility_map::distances::NOWHERE;
+use crate::answers::visibility_map::grid::{Grid, each_corner};
+use crate::answers::visibility_map::levels::{Corner, NONE, Row, Scale, Triangles};
+use crate::base::allocation::{OutOfMemory, copied, with_capacity};
+use crate::base::real::{larger, smaller};
+
+/// How many longest edges behind its triangle a point is hidden, where a map stands in for looks.
+const EDGES: f32 = 4.0;
 /// How far into a cell an edge reaches: a camera that has moved on sees past it.
 const BESIDE: f32 = 0.25;
 
-impl VisibilityMap {
-    /// Writes the distances behind the surfaces of a look.
-    #[inline(never)]
-    pub(super) fn fill_by_surface(
-        &mut self,
-        champions: &Champions,
-        levels: &mut Levels,
-        flip: &Flip,
-        depth: &Depth,
-    ) -> Result<(), OutOfMemory> {
-        let grid = &champions.grid;
-        let cell = 1.0 / grid.cells_per_unit;
-        let mut distances = filled(grid.corners(), NOWHERE)?;
-        for (side, window) in grid.used() {
-            let bounds = levels.bounds(champions, side, flip)?;
-            each_corner(window, cell, &mut |place, _, squared| {
-                let bound = bounds[place - window.first];
-                if bound < UNKNOWN {
-                    distances[place] = stored(flip.distance_at(square_root(squared) / bound));
-                }
-            });
-            let surface = levels.surface(champions, side, flip.viewpoint(), depth.behind)?;
-            let both = distances[window.first..].iter_mut().zip(surface);
-            for (distance, &surface) in both {
-                *distance = distance.max(stored(surface));
-            }
-        }
-        if depth.aside > 0.0 {
-            widen(grid, depth.aside, &mut distances)?;
-        }
-        spread(grid, &mut distances)?;
-        self.set(grid, &distances)
+impl Corner<'_> {
+    /// How far points are hidden along the corners: `behind` and some longest edges behind the nearer one of two triangles.
+    #[inline(always)]
+    pub(super) fn surface(&self, rows: [&Row; 2], at: usize, bend: f32, behind: f32) -> Vec4 {
+        let [a, b, c, d] = self.champions;
+        let far = |row: usize, at: usize| Vec4::from_slice(&rows[row].d[at..]);
+        let [da, db, dc, dd] = [far(0, at - 1), far(0, at), far(1, at), far(1, at - 1)];
+        let edge = |p: [Vec4; 3], of_p: Vec4, q: [Vec4; 3], of_q: Vec4| {
+            let (x, y, z) = (p[0] - q[0], p[1] - q[1], of_p - of_q);
+            z * z + of_p * of_q * (x * x + y * y) * (2.0 * bend)
+        };
+        let (ab, bc) = (edge(a, da, b, db), edge(b, db, c, dc));
+        let (cd, ad) = (edge(c, dc, d, dd), edge(d, dd, a, da));
+        let (ac, bd) = (edge(a, da, c, dc), edge(b, db, d, dd));
+        let Triangles { weights, picks } = self.triangles();
+        let pick = Vec4::select;
+        let one = self.behind(
+            weights[0],
+            [da, pick(picks[0], db, dd), dc],
+            ac.max(pick(picks[0], ab.max(bc), cd.max(ad))),
+        );
+        let two = self.behind(
+            weights[1],
+            [db, pick(picks[1], dc, da), dd],
+            bd.max(pick(picks[1], bc.max(cd), ad.max(ab))),
+        );
+        one.min(two) + behind
+    }
+
+    #[inline(always)]
+    fn behind(&self, [p, q, r]: [Vec4; 3], [of_p, of_q, of_r]: [Vec4; 3], edge: Vec4) -> Vec4 {
+        let &Scale { error, area, .. } = self.scale;
+        let sum = p + q + r;
+        let depth = sum / (p / of_p + q / of_q + r / of_r);
+        let is_sure = p.min(q).min(r).cmpge(Vec4::splat(error)) & sum.cmpge(Vec4::splat(area));
+        let far = depth + edge.sqrt() * EDGES;
+        Vec4::select(
+            is_sure & far.cmplt(Vec4::splat(1e16)),
+            far,
+            Vec4::splat(NONE),
+        )
     }
 }
 
 /// Takes the distance of each corner a part of the way to those beside it that are larger.
-fn spread(grid: &Grid, distances: &mut [f32]) -> Result<(), OutOfMemory> {
+pub(super) fn spread(grid: &Grid, distances: &mut [f32]) -> Result<(), OutOfMemory> {
     let before = copied(distances)?;
     for (_, window) in grid.used() {
         let corners = window.first..window.first + window.corners();
@@ -78,7 +88,7 @@ fn spread(grid: &Grid, distances: &mut [f32]) -> Result<(), OutOfMemory> {
 
 /// Gives each corner the largest distance of those that are at most `aside` beside it, where its surface is: a surface with
 /// a thickness shows what lies so near to its outline.
-fn widen(grid: &Grid, aside: f64, distances: &mut [f32]) -> Result<(), OutOfMemory> {
+pub(super) fn widen(grid: &Grid, aside: f64, distances: &mut [f32]) -> Result<(), OutOfMemory> {
     let cell = 1.0 / grid.cells_per_unit;
     let mut cells = with_capacity(distances.len())?;
     let shares = distances
