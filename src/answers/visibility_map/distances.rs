@@ -17,91 +17,16 @@
 use alloc::vec::Vec;
 use glam::Vec4;
 
-use crate::answers::visibility_map::hides::MOST;
-use crate::answers::visibility_map::levels::{
-    LEAST, Level, NONE, Scale, UNIT, UNKNOWN, padded, refill,
-};
+use crate::answers::visibility_map::gauge::{Gauge, LEAST, MOST, NOWHERE, UNIT, UNKNOWN};
+use crate::answers::visibility_map::grid::{padded, refill};
+use crate::answers::visibility_map::levels::{Level, Scale};
 use crate::base::allocation::OutOfMemory;
-use crate::flip::inversion::Flip;
 
-/// Stands for a direction in which nothing is hidden.
-pub(super) const NOWHERE: f32 = f32::MAX;
 const MARGIN: f32 = 1.0 + 128.0 * UNIT;
 /// A bound of the relative error of 1/z in the flip of a point.
 const ROUNDING: f32 = 1e-12;
 /// The share of a reach that its interpolation may lose.
 const MOST_LOST: f32 = 0.5;
-/// There, triangles of all points bend less than those of champions, of which there is one for three points.
-const BEND: f32 = 1.0 / 3.0;
-
-/// What a row of cells loses: a share, or the largest G.
-#[derive(Default)]
-pub(super) struct Losses {
-    share: Vec<f32>,
-    most: Vec<f32>,
-}
-
-/// How numbers in a window depend on the flip.
-#[derive(Clone, Copy)]
-pub(super) struct Gauge<'a> {
-    flip: &'a Flip,
-    /// S, and 2R, rounded down, where the flip is one on a sphere.
-    length: f64,
-    twice: Option<f32>,
-    /// For looks: how far behind a surface points are hidden.
-    pub behind: Option<f32>,
-    /// The share of a bend that counts between champions of the finest cells, and between corners.
-    pub bend: f32,
-}
-
-impl<'a> Gauge<'a> {
-    /// `None` where no distance would be left. `nearest`: a distance of the nearest champions.
-    pub(super) fn new(flip: &'a Flip, nearest: f64, behind: Option<f64>) -> Option<Self> {
-        let twice = flip.diameter();
-        let length = twice.unwrap_or_else(|| flip.most_beyond(nearest));
-        let known =
-            (1e-25..1e25).contains(&twice.unwrap_or(1.0)) && (1e-280..1e280).contains(&length);
-        known.then_some(Self {
-            flip,
-            length,
-            twice: twice.map(|x| x as f32 * (1.0 - f32::EPSILON)),
-            behind: behind.map(|x| x as f32),
-            bend: if behind.is_some() { BEND } else { 1.0 },
-        })
-    }
-
-    /// G of points at these distances.
-    #[inline(always)]
-    pub(super) fn bound(&self, d: Vec4) -> Vec4 {
-        let d = d * (1.0 + 16.0 * UNIT);
-        match self.twice {
-            Some(twice) => d / (Vec4::splat(twice) - d),
-            None => self.other(d, |d| self.length / self.flip.reach_at(d) - 1.0),
-        }
-    }
-
-    /// The distances of these G.
-    #[inline(always)]
-    pub(super) fn distance(&self, bound: Vec4) -> Vec4 {
-        match self.twice {
-            Some(twice) => bound / (bound + 1.0) * twice * (1.0 + 16.0 * UNIT),
-            None => self.other(bound, |bound| {
-                self.flip.distance_at(self.length / (1.0 + bound))
-            }),
-        }
-    }
-
-    #[inline(never)]
-    fn other(&self, numbers: Vec4, of: impl Fn(f64) -> f64) -> Vec4 {
-        numbers.map(|x| {
-            if x < UNKNOWN {
-                (of(f64::from(x)).clamp(0.0, 1e31) * (1.0 + 1e-6)) as f32
-            } else {
-                NONE
-            }
-        })
-    }
-}
 
 impl Level {
     /// From bounds to distances.
@@ -110,14 +35,14 @@ impl Level {
         &mut self,
         scale: &Scale,
         gauge: Gauge,
-        losses: &mut [Losses; 2],
+        losses: &mut [[Vec<f32>; 2]; 2],
         to: &mut [f32],
     ) -> Result<(), OutOfMemory> {
         let across = padded(self.columns);
         let h = scale.cell;
-        for row in &mut *losses {
-            refill(&mut row.share, across + 4, 0.0)?;
-            refill(&mut row.most, across + 4, 0.0)?;
+        // What a row of cells loses: shares, and the largest G.
+        for numbers in losses.as_flattened_mut() {
+            refill(numbers, across + 4, 0.0)?;
         }
         // e^5h < 1 + 8h up to here.
         let grown = if h < 0.15 { 1.0 + 8.0 * h } else { 1e3 };
@@ -150,16 +75,16 @@ impl Level {
                     // A cell with an unknown corner hides nothing.
                     let share = Vec4::select(is_known, Vec4::select(is_much, none, share), none);
                     let most = Vec4::select(is_known, Vec4::select(is_much, most, none), none);
-                    share.write_to_slice(&mut above.share[at + 1..]);
-                    most.write_to_slice(&mut above.most[at + 1..]);
+                    share.write_to_slice(&mut above[0][at + 1..]);
+                    most.write_to_slice(&mut above[1][at + 1..]);
                 }
                 // Beyond the last one is no cell.
-                for beyond in [&mut above.share, &mut above.most] {
+                for beyond in &mut *above {
                     beyond[self.columns + 1..].fill(0.0);
                 }
             } else {
-                above.share.fill(0.0);
-                above.most.fill(0.0);
+                above[0].fill(0.0);
+                above[1].fill(0.0);
             }
             for at in (0..=self.columns).step_by(4) {
                 let largest = |a: &[f32], b: &[f32]| {
@@ -168,8 +93,8 @@ impl Level {
                         .max(number(a, at + 1))
                         .max(number(b, at).max(number(b, at + 1)))
                 };
-                let share = largest(&below.share, &above.share);
-                let most = largest(&below.most, &above.most);
+                let share = largest(&below[0], &above[0]);
+                let most = largest(&below[1], &above[1]);
                 let inverse = squared(at).recip();
                 let sum = (inverse + inverse * inverse) * grown;
                 let lost = share + sum.min(Vec4::splat(2.0)) * (gauge.bend * 0.125 * h * h);

@@ -5,8 +5,8 @@
 use alloc::vec::Vec;
 use glam::DVec3;
 
-use crate::answers::visibility_map::MapOptions;
-use crate::answers::visibility_map::levels::{NONE, padded, refill};
+use crate::answers::visibility_map::gauge::NONE;
+use crate::answers::visibility_map::options::MapOptions;
 use crate::base::allocation::{OutOfMemory, filled, push};
 use crate::base::real::{larger, sine_cosine, smaller, square_root};
 use crate::cloud::blocks::{BLOCK, Sphere};
@@ -18,7 +18,7 @@ use crate::view::resolved::normalized;
 const STEP: usize = 32;
 const FEW: usize = 4096;
 /// How many points there are for each cell, of those that are about as near as the nearest one beside them.
-const NEAR_PER_CELL: f64 = 3.0;
+const NEAR_PER_CELL: f64 = 2.5;
 /// At most so many cells for each that points are in, so that a grid takes little memory.
 const MOST_EMPTY: f64 = 8.0;
 const LEAST_CELLS: f64 = 64.0;
@@ -279,6 +279,23 @@ pub(super) fn each_corner(window: &Window, cell: f64, pass: &mut impl FnMut(usiz
             place += 1;
         }
     }
+}
+
+/// How many numbers a row takes: four are read and written at once, also beside the last corner.
+pub(super) fn padded(columns: usize) -> usize {
+    (columns + 4).next_multiple_of(4)
+}
+
+/// Makes a vector hold `value` `count` times.
+pub(super) fn refill<T: Copy>(
+    items: &mut Vec<T>,
+    count: usize,
+    value: T,
+) -> Result<(), OutOfMemory> {
+    items.clear();
+    items.try_reserve(count)?;
+    items.resize(count, value);
+    Ok(())
 }
 
 /// The extent of some places on a side of the cube.

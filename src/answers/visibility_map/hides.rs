@@ -14,7 +14,7 @@
 use alloc::vec::Vec;
 
 use crate::answers::looks::Depth;
-use crate::answers::visibility_map::distances::Gauge;
+use crate::answers::visibility_map::gauge::{Gauge, MOST};
 use crate::answers::visibility_map::grid::EMPTY;
 use crate::answers::visibility_map::levels::{Champions, Levels};
 use crate::answers::visibility_map::surface::{spread, widen};
@@ -29,9 +29,6 @@ const ROW: usize = 256;
 /// Four numbers are written at once.
 const SPARE: usize = 4;
 const UNIT: f64 = f32::EPSILON as f64;
-/// The largest distance in a map, where points can be hidden. A test takes a cell with a larger one as
-/// unknown.
-pub(super) const MOST: f64 = 1e30;
 
 /// Which points are certainly hidden from a viewpoint. `docs/API.md` describes the data and
 /// the shader.

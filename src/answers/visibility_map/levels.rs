@@ -24,29 +24,18 @@
 use alloc::vec::Vec;
 use glam::{BVec4A, Vec4};
 
-use crate::answers::visibility_map::distances::{Gauge, Losses};
-use crate::answers::visibility_map::grid::{Cell, EMPTY, Grid, LEVELS};
+use crate::answers::visibility_map::gauge::{Gauge, LEAST, NONE, UNIT, UNKNOWN};
+use crate::answers::visibility_map::grid::{Cell, EMPTY, Grid, LEVELS, padded, refill};
 use crate::base::allocation::OutOfMemory;
 use crate::base::real::square_root;
 use crate::hull::Window;
-
-/// Stands for an unknown bound; at least [`UNKNOWN`] also after all means.
-pub(super) const NONE: f32 = 1e30;
-pub(super) const UNKNOWN: f32 = 1e20;
-/// Champions that are nearer are left out, and no distance in a map is less. Single precision may flush a smaller one to 0.
-pub(super) const LEAST: f32 = 1e-30;
-pub(super) const UNIT: f32 = 0.5 * f32::EPSILON;
-/// How many numbers a row takes: four are read and written at once, also beside the last corner.
-pub(super) fn padded(columns: usize) -> usize {
-    (columns + 4).next_multiple_of(4)
-}
 
 /// The room for one window, kept from map to map.
 #[derive(Default)]
 pub(super) struct Levels {
     levels: [Level; LEVELS + 1],
     rows: [Row; 2],
-    losses: [Losses; 2],
+    losses: [[Vec<f32>; 2]; 2],
 }
 
 /// The champions of a map.
@@ -162,18 +151,6 @@ impl Scale {
             x * x + (1.0 + y * y)
         }
     }
-}
-
-/// Makes a vector hold `value` `count` times.
-pub(super) fn refill<T: Copy>(
-    items: &mut Vec<T>,
-    count: usize,
-    value: T,
-) -> Result<(), OutOfMemory> {
-    items.clear();
-    items.try_reserve(count)?;
-    items.resize(count, value);
-    Ok(())
 }
 
 pub(super) const STEPS: Vec4 = Vec4::new(0.0, 1.0, 2.0, 3.0);

@@ -2,9 +2,9 @@
 
 use alloc::vec::Vec;
 
-use crate::answers::visibility_map::MapOptions;
 use crate::answers::visibility_map::grid::{Cell, Cone, Grid};
 use crate::answers::visibility_map::levels::{Champions, Levels};
+use crate::answers::visibility_map::options::MapOptions;
 use crate::base::allocation::{OutOfMemory, with_capacity};
 use crate::base::real::square_root;
 use crate::cloud::blocks::Blocks;
@@ -14,7 +14,7 @@ use crate::cloud::points::Points;
 /// A map looks through so many points and one in [`GROWS`] of the cloud, as far as the options let it, and through
 /// [`IN_CONE`] times as many of which only a cone counts.
 const LEAST: usize = 200_000;
-const GROWS: usize = 16;
+const GROWS: usize = 10;
 const IN_CONE: usize = 3;
 
 /// An even sample of a cloud.

@@ -8,9 +8,9 @@
 
 use glam::Vec4;
 
-use crate::answers::visibility_map::distances::NOWHERE;
+use crate::answers::visibility_map::gauge::{NONE, NOWHERE};
 use crate::answers::visibility_map::grid::{Grid, each_corner};
-use crate::answers::visibility_map::levels::{Corner, NONE, Row, Scale, Triangles};
+use crate::answers::visibility_map::levels::{Corner, Row, Scale, Triangles};
 use crate::base::allocation::{OutOfMemory, copied, with_capacity};
 use crate::base::real::{larger, smaller};
 
