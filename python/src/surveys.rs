@@ -228,7 +228,7 @@ impl PointCloud {
     ///     where a scanner stood, and its points.
     /// Options: those of `visible_from`; looks is 3 by default. A thickness that is given is only measured.
     /// Returns a `Calibration`: `thickness`, `recall` (the share of its own points that each station sees), `shown` (the share
-    /// of otherwise hidden points that the thickness shows) and `options` to ask with. Takes about ten views for each station.
+    /// of otherwise hidden points that the thickness shows) and `options` to ask with. Takes up to twenty views for each station.
     #[pyo3(signature = (stations, **options), text_signature = None)]
     fn calibrate<'py>(
         &self,

@@ -6,8 +6,8 @@
 //!          the others: those that are visible, too, at the rate of the own ones, and those that are hidden. With a
 //!          thickness of 0 hardly a hidden point is seen, which tells how many of the others are visible. So the
 //!          share of the hidden ones that any thickness shows follows. The best thickness has the largest share of
-//!          own points less that share. Thicknesses are tried from 0 upwards, each twice the one before, then beside
-//!          the best one.
+//!          own points less that share. Thicknesses are tried from 0 upwards, each twice the one before, as long as a
+//!          larger one may be better, then beside the best one.
 
 use alloc::vec::Vec;
 
@@ -21,9 +21,6 @@ use crate::view::options::{Inversion, Options};
 const ENOUGH: f64 = 0.985;
 /// The first thickness above 0, in spacings.
 const FIRST: f64 = 0.125;
-/// A thickness is doubled at most so often, and after the best one so often more.
-const DOUBLINGS: usize = 12;
-const MORE: usize = 2;
 /// So often, thicknesses on both sides of the best one are tried.
 const HALVINGS: usize = 2;
 /// Each doubling of the thickness must bring such a share of own points.
@@ -73,7 +70,7 @@ struct Trial {
 
 impl PointCloud {
     /// For scans whose stations are known: the thickness at which each station sees most of the points that it measured,
-    /// and few others. Takes about ten views of each station. A thickness that `options` give is only measured.
+    /// and few others. Takes up to twenty views of each station. A thickness that `options` give is only measured.
     ///
     /// It is the one for which the mean recall (more than 0.985 of a station counts as 0.985), less the share of hidden points that are shown, is
     /// largest. Each doubling must bring half a percent of own points. Which others are hidden is estimated: with a
@@ -97,43 +94,34 @@ impl PointCloud {
         }
         let spacing = self.spacing()?;
         let value = |trial: &Trial| trial.value(&first, spacing);
-        let is_enough = |trial: &Trial| trial.recall.iter().all(|&share| share >= ENOUGH);
-        // In ascending order of the thickness.
-        let mut trials = Vec::new();
-        trials.try_reserve(DOUBLINGS + 2 * HALVINGS + 1)?;
-        trials.push(first.clone());
-        let highest = |trials: &[Trial]| {
-            let higher = |best: usize, next: usize| {
-                let is_higher = value(&trials[next]) > value(&trials[best]);
-                if is_higher { next } else { best }
-            };
-            (0..trials.len()).reduce(higher).unwrap_or(0)
+        let higher = |best: Trial, thickness: f64| {
+            let next = self.trial(stations, &options, thickness)?;
+            Ok::<_, Error>(if value(&next) > value(&best) {
+                next
+            } else {
+                best
+            })
         };
-        for doubling in 0..DOUBLINGS {
-            let best = highest(&trials);
-            let last = &trials[trials.len() - 1];
-            if spacing == 0.0 || is_enough(last) || trials.len() - best > MORE {
-                break;
-            }
-            let thickness = FIRST * spacing * libm::ldexp(1.0, doubling as i32);
-            trials.push(self.trial(stations, &options, thickness)?);
+        let mut best = first.clone();
+        let mut thickness = FIRST * spacing;
+        // Nothing lies deeper than the cloud is large, and all own points are the most that can be seen.
+        while thickness > 0.0
+            && thickness < 2.0 * self.bounds.diagonal()
+            && value(&best) < ENOUGH - price(thickness, spacing)
+        {
+            best = higher(best, thickness)?;
+            thickness *= 2.0;
         }
+        let mut step: f64 = 2.0;
         for _ in 0..HALVINGS {
-            let best = highest(&trials);
-            if trials[best].thickness == 0.0 {
-                break;
-            }
-            for (at, beside) in [(best + 1, best + 1), (best, best - 1)] {
-                let other = trials.get(beside).map_or(0.0, |trial| trial.thickness);
-                let between = square_root(other * trials[best].thickness);
-                if between > 0.0 {
-                    let trial = self.trial(stations, &options, between)?;
-                    trials.insert(at, trial);
-                }
+            step = square_root(step);
+            let middle = best.thickness;
+            if middle > 0.0 {
+                best = higher(best, middle * step)?;
+                best = higher(best, middle / step)?;
             }
         }
-        let best = highest(&trials);
-        Ok(trials.swap_remove(best).compared_with(&first))
+        Ok(best.compared_with(&first))
     }
 
     /// The points that take part in a view, by index, and which of them are a station's own.
@@ -216,8 +204,7 @@ impl Trial {
             }
         }
         let wrong = wrong / self.others.len().max(1) as f64;
-        let thickness = self.thickness / larger(spacing, f64::MIN_POSITIVE);
-        mean(&self.recall, ENOUGH) - wrong - PRICE * libm::log2(1.0 + thickness / FIRST)
+        mean(&self.recall, ENOUGH) - wrong - price(self.thickness, spacing)
     }
 
     fn compared_with(self, first: &Self) -> Calibration {
@@ -236,6 +223,12 @@ impl Trial {
             recall: self.recall,
         }
     }
+}
+
+/// What a thickness must bring.
+fn price(thickness: f64, spacing: f64) -> f64 {
+    let thickness = thickness / larger(spacing, f64::MIN_POSITIVE);
+    PRICE * libm::log2(1.0 + thickness / FIRST)
 }
 
 /// The mean of shares, each counted up to `most`.

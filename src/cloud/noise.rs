@@ -7,14 +7,14 @@
 use alloc::vec::Vec;
 use glam::DVec3;
 
-use crate::base::allocation::{OutOfMemory, with_capacity};
+use crate::base::allocation::{OutOfMemory, filled, with_capacity};
 use crate::base::real::{power_of_two_below, square_root};
-use crate::base::sort::percentile;
+use crate::base::sort::{Keyed, percentile};
 use crate::cloud::neighbors::{Nearest, Neighbors};
 use crate::cloud::plane::off_plane;
 use crate::cloud::points::Points;
 use crate::cloud::quadric::off_quadric;
-use crate::cloud::sheets::{LOW, NEAR, Sample, are_sheets, next_sheet};
+use crate::cloud::sheets::{LOW, NEAR, PLACES, Sample, are_sheets, next_sheet, off_two_planes};
 use crate::cloud::statistics::{SAMPLES, mean_distance};
 use crate::cloud::surface;
 
@@ -43,8 +43,6 @@ const PLANES: [usize; 2] = [8, 24];
 /// A surface is measured by a scanner if points are about as far off their planes in the small
 /// surroundings as in the large ones, by this share. Curved surfaces without noise have 0.2 to 0.5.
 const MEASURED: f64 = 0.6;
-/// Its samples are uneven if one spacing in ten is this many times the median.
-const SPREAD: f64 = 1.8;
 /// The gap of one hull's radius is the median spacing, divided by this: for scans, for overlapping
 /// scans, and for even noise by its standard deviation in spacings. The gap of clean surfaces heeds
 /// outliers and the sparse places of a scan.
@@ -110,7 +108,7 @@ impl Noise {
         let longest = surface::longest(&spacings)?;
         let usual = low(&spacings, 50)?;
         let cut = surface::cut_off(spacings, longest);
-        let (surface, ratio) = measured.surface(points, neighbors)?;
+        let (surface, ratio) = measured.surface(points.len())?;
         let mut noise = Self {
             spacing: surface::mean(&cut),
             usual,
@@ -121,7 +119,7 @@ impl Noise {
             next_sheet: f64::INFINITY,
             samples: Vec::new(),
         };
-        let is_uneven = low(&cut, 90)? >= SPREAD * usual;
+        let is_uneven = low(&cut, 90)? >= EVEN * usual;
         let looser = match surface {
             Surface::Noisy if ratio > NOISY => 1.0 + BY_NOISE * noise.deviation() / noise.spacing,
             Surface::Layered => OVERLAPPING,
@@ -175,6 +173,8 @@ struct Measured {
     lengths: Vec<f64>,
     /// The distances off the planes of [`PLANES`]: the small ÷ the large one.
     planes: Vec<f64>,
+    /// At some of the rough places, how far points lie off two planes ÷ off the quadric.
+    sheets: Vec<f64>,
 }
 
 impl Measured {
@@ -190,6 +190,8 @@ impl Measured {
         let [_, most] = NEAR;
         let mut places: Vec<DVec3> = with_capacity(most + 1)?;
         let mut nearest = Nearest::with_capacity(most)?;
+        let mut sheets = with_capacity(PLACES)?;
+        let mut order: Vec<Keyed> = filled(most + 1, (0, 0))?;
         for &query in sample {
             let query = query as usize;
             neighbors.find(query, &mut nearest);
@@ -215,11 +217,19 @@ impl Measured {
             let normal = small.normal;
             let [near, far] = PLANES.map(|count| off_plane(&places[..=count]));
             planes.push(near / far);
-            let [small_off, large_off] = [small, large].map(|off| off.deviation / size);
+            let [small_off, large_off] = [&small, &large].map(|off| off.deviation / size);
             ratios[0].push(small_off);
             ratios[1].push(large_off);
+            let noise = constant(small_off, large_off);
+            if noise > NOISY && samples.len() % (SAMPLES / PLACES) == 0 {
+                let share = off_two_planes(&places, large.normal, &mut order) / large.deviation;
+                // NaN where all points are on the quadric.
+                if share >= 0.0 {
+                    sheets.push(share);
+                }
+            }
             samples.push(Sample {
-                noise: constant(small_off, large_off),
+                noise,
                 point: query as u32,
                 place,
                 normal,
@@ -231,17 +241,14 @@ impl Measured {
             ratios,
             lengths,
             planes,
+            sheets,
         })
     }
 
     /// What the cloud is, and its noise in spacings. A sensor's noise is the same everywhere. Registered
     /// scans lie beside each other only where they overlap, and what is rough is so in places: there the
     /// median counts.
-    fn surface(
-        &self,
-        points: &Points,
-        neighbors: &Neighbors,
-    ) -> Result<(Surface, f64), OutOfMemory> {
+    fn surface(&self, count: usize) -> Result<(Surface, f64), OutOfMemory> {
         let [small, large] = &self.ratios;
         let everywhere = TO_DEVIATION * constant(low(small, LOW)?, low(large, LOW)?);
         let mut constants = with_capacity(self.samples.len())?;
@@ -251,17 +258,11 @@ impl Measured {
             let least = if self.is_alike()? { CLEAN } else { NOISY };
             (Surface::Noisy, everywhere, everywhere > least)
         } else {
-            let least = NOISY + CURVED / points.len() as f64;
+            let least = NOISY + CURVED / count as f64;
             (Surface::Layered, in_places, in_places > least)
         };
-        if is_noise
-            && ratio < f64::INFINITY
-            && !are_sheets(points, neighbors, &self.samples, NOISY)?
-        {
-            Ok((surface, ratio))
-        } else {
-            Ok((Surface::Clean, ratio))
-        }
+        let is_clean = !is_noise || ratio == f64::INFINITY || are_sheets(&self.sheets)?;
+        Ok((if is_clean { Surface::Clean } else { surface }, ratio))
     }
 
     /// Whether points are farther off their quadrics in large surroundings than layers are.

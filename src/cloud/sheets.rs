@@ -1,29 +1,24 @@
 //! Sheets that lie near each other: the two sides of a board, shelves, walls. A quadric takes them for
 //! noise. Two planes tell them from it, since sheets without noise lie on them.
 
-use alloc::vec::Vec;
 use glam::{DMat3, DVec3};
 
-use crate::base::allocation::{OutOfMemory, filled, with_capacity};
+use crate::base::allocation::{OutOfMemory, with_capacity};
 use crate::base::real::square_root;
 use crate::base::sort::{Keyed, ordered, percentile, sort_keyed};
-use crate::cloud::neighbors::{Nearest, Neighbors};
+use crate::cloud::neighbors::Neighbors;
 use crate::cloud::plane::{least_axis, outer_product};
-use crate::cloud::points::Points;
-use crate::cloud::quadric::off_quadric;
 
 /// Neighbors of the small and the large surroundings of a point.
 pub(crate) const NEAR: [usize; 2] = [16, 32];
 /// How many places are measured where that takes more than the quadrics of all samples.
-const PLACES: usize = 512;
+pub(crate) const PLACES: usize = 512;
 /// The percentile that counts where edges and corners are to be left out.
 pub(crate) const LOW: usize = 25;
 /// A cloud is sheets if its rough places lie on two planes: if points are at most this
 /// share as far off them as off one quadric. Clean sheets have 0, scanned surfaces and all kinds of noise 0.34 and
 /// more, scans without noise that lie beside each other 0.13.
 const SHEETS: f64 = 0.1;
-/// Points on each sheet, at least.
-const FEWEST: usize = 3;
 /// A point is on the next sheet if it lies from the first to the second number of spacings before or behind a place,
 /// and at most one local spacing beside its normal.
 const NEXT: [f64; 2] = [0.7, 30.0];
@@ -47,42 +42,14 @@ pub(crate) fn some(samples: &[Sample]) -> impl Iterator<Item = &Sample> {
         .step_by(samples.len().div_ceil(PLACES).max(1))
 }
 
-/// Whether points lie on two sheets, rather than around one surface, where there seems to be more noise than `least`,
-/// in spacings.
-#[inline(never)]
-pub(crate) fn are_sheets(
-    points: &Points,
-    neighbors: &Neighbors,
-    samples: &[Sample],
-    least: f64,
-) -> Result<bool, OutOfMemory> {
-    let [_, around] = NEAR;
-    let mut nearest = Nearest::with_capacity(around)?;
-    let mut places: Vec<DVec3> = with_capacity(around + 1)?;
-    let mut order: Vec<Keyed> = filled(around + 1, (0, 0))?;
-    let mut shares = with_capacity(PLACES)?;
-    for sample in some(samples).filter(|sample| sample.noise > least) {
-        neighbors.find(sample.point as usize, &mut nearest);
-        let origin = DVec3::from_array(sample.place);
-        places.clear();
-        places.push(DVec3::ZERO);
-        places.extend(nearest.found().iter().map(|other| {
-            let other = DVec3::from_array(points.get(other.index as usize));
-            (other - origin) / sample.spacing
-        }));
-        let one = off_quadric(&places);
-        let share = off_two_planes(&places, one.normal, &mut order) / one.deviation;
-        // NaN where all points are on the quadric.
-        if share >= 0.0 {
-            shares.push(share);
-        }
-    }
-    Ok(percentile(&shares, LOW)?.is_some_and(|share| share <= SHEETS))
+/// Whether points lie on two sheets, rather than around one surface, by the shares at rough places.
+pub(crate) fn are_sheets(shares: &[f64]) -> Result<bool, OutOfMemory> {
+    Ok(percentile(shares, LOW)?.is_some_and(|share| share <= SHEETS))
 }
 
 /// How far places lie off two parallel planes, which are on both sides of the widest gap along `normal`: the root of the
 /// mean square. The sum of squares is divided by the number of places above 4.
-fn off_two_planes(places: &[DVec3], normal: DVec3, order: &mut [Keyed]) -> f64 {
+pub(crate) fn off_two_planes(places: &[DVec3], normal: DVec3, order: &mut [Keyed]) -> f64 {
     for (number, item) in (0..).zip(&mut *order) {
         *item = (ordered(places[number as usize].dot(normal)), number);
     }
@@ -90,8 +57,8 @@ fn off_two_planes(places: &[DVec3], normal: DVec3, order: &mut [Keyed]) -> f64 {
     let place = |(_, number): &Keyed| places[*number as usize];
     let height = |at: usize| place(&order[at]).dot(normal);
     let gap = |at: usize| height(at) - height(at - 1);
-    let mut cut = FEWEST;
-    for at in FEWEST..=order.len() - FEWEST {
+    let mut cut = 1;
+    for at in 1..order.len() {
         if gap(at) > gap(cut) {
             cut = at;
         }
@@ -140,6 +107,8 @@ pub(crate) fn next_sheet(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::base::allocation::filled;
+    use alloc::vec::Vec;
 
     #[test]
     fn sheets_lie_on_two_planes_and_noise_does_not() {

@@ -100,6 +100,27 @@ fn a_thickness_that_shows_what_is_behind_is_too_large() {
     assert_eq!((huge.thickness, huge.shown), (1e3, 1.0));
 }
 
+/// A scanner that sees through a net measures the wall behind it. No thickness helps until it reaches from the net to
+/// the wall.
+#[test]
+fn the_search_goes_on_where_some_doublings_bring_nothing() {
+    let mut rng = Rng::new(4);
+    let mut sheet = |z: f64| -> Vec<[f64; 3]> {
+        let place = |_| [rng.between(-20.0, 20.0), rng.between(-20.0, 20.0), z];
+        (0..1600).map(place).collect()
+    };
+    let points = [sheet(20.0), sheet(60.0)].concat();
+    let own = all(&points);
+    let station = [Station {
+        viewpoint: CENTER,
+        indices: &own,
+    }];
+    let cloud = PointCloud::new(&points).unwrap();
+    let found = cloud.calibrate(&station, &looks()).unwrap();
+    assert!((20.0..200.0).contains(&found.thickness), "{found:?}");
+    assert!(found.recall[0] > 0.9, "{found:?}");
+}
+
 #[test]
 fn what_does_not_fit_is_refused() {
     let cloud = PointCloud::new(&[[0.0, 0.0, 1.0]; 3]).unwrap();

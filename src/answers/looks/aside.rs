@@ -4,18 +4,11 @@
 use alloc::vec::Vec;
 
 use crate::answers::looks::decide::BEHIND;
-use crate::answers::looks::look::{Look, Verdict, Verdicts};
+use crate::answers::looks::look::{Look, SCORES, Verdict, Verdicts};
 use crate::answers::looks::rays::{Ray, Rays};
 use crate::base::allocation::{OutOfMemory, push};
 use crate::cloud::points::Points;
-
-/// Only so many visible points, nearest by direction, can show a point. Behind a closed surface all
-/// of them are nearer.
-const NEAREST: usize = 5;
-/// How far beside a ray a visible point may be to show a point, in thicknesses.
-pub(super) const ASIDE: f64 = 2.0;
-/// The score of a point that is shown so.
-const SHOWN: f64 = 0.8;
+use crate::cloud::statistics::NEIGHBORS;
 
 impl Verdicts {
     /// Shows hidden points beside visible ones.
@@ -29,23 +22,22 @@ impl Verdicts {
             }
         }
         let visible = Rays::of(visible)?;
-        if visible.len() < NEAREST {
+        if visible.len() < NEIGHBORS {
             return Ok(());
         }
         let thickness = look.thickness();
-        let aside = ASIDE * thickness;
         for point in 0..points.len() {
             if self.of[point] == Verdict::Visible {
                 continue;
             }
             let ray = ray(point);
             let reach = if look.ahead.is_some() {
-                aside
+                thickness
             } else {
-                aside / ray.range
+                thickness / ray.range
             };
             if visible.show(&ray, reach, BEHIND * thickness) {
-                self.decide(point, true, SHOWN);
+                self.decide(point, true, SCORES[1]);
             }
         }
         Ok(())
@@ -53,8 +45,8 @@ impl Verdicts {
 }
 
 impl Rays {
-    /// Whether one of the rays that are nearest by direction passes within `reach` of the ray of a
-    /// point, and ends at most `nearer` before it.
+    /// Whether one of the six rays that are nearest by direction passes within `reach` of the ray of a
+    /// point, and ends at most `nearer` before it. Behind a closed surface all six are nearer.
     fn show(&self, ray: &Ray, reach: f64, nearer: f64) -> bool {
         let mut nearest = f64::INFINITY;
         let range = ray.range - nearer;
@@ -68,8 +60,8 @@ impl Rays {
         let mut before = 0;
         self.visit(ray.place, f64::NEG_INFINITY, nearest, &mut |squared, _| {
             before += usize::from(squared < nearest);
-            (before >= NEAREST).then_some(-1.0)
+            (before >= NEIGHBORS).then_some(-1.0)
         });
-        before < NEAREST
+        before < NEIGHBORS
     }
 }

@@ -42,7 +42,7 @@ impl Corners {
             spacing: f64::INFINITY,
         }));
         let mut triangles = with_capacity(faces.slots())?;
-        let mut shortest = filled(all.len(), Shortest::NONE)?;
+        let mut shortest = filled(all.len(), Shortest([f64::INFINITY.to_bits(); 2]))?;
         for id in 0..faces.slots() as FaceId {
             match faces.corners(id) {
                 Some(corners) => triangles.push(corners),
@@ -117,8 +117,6 @@ impl Corners {
 struct Shortest([u64; 2]);
 
 impl Shortest {
-    const NONE: Self = Self([f64::INFINITY.to_bits(); 2]);
-
     #[inline]
     fn keep(&mut self, squared: u64) {
         let [first, second] = self.0;

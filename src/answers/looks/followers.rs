@@ -6,9 +6,8 @@ use crate::answers::looks::look::{Verdict, Verdicts};
 use crate::base::allocation::{OutOfMemory, push, with_capacity};
 use crate::cloud::neighbors::{Nearest, Neighbors};
 use crate::cloud::points::Points;
+use crate::cloud::sheets::NEAR;
 
-/// How many of the nearest points are asked.
-const VOTERS: usize = 16;
 /// How many of them must be decided at least.
 const DECIDED: usize = 2;
 /// The number of rounds. A point that was decided in one round is asked in the next.
@@ -26,7 +25,8 @@ pub(super) fn follow(verdicts: &mut Verdicts, points: &Points) -> Result<(), Out
     }
     let mut shares: Vec<f64> = with_capacity(open.len())?;
     let neighbors = Neighbors::new(points)?;
-    let mut nearest = Nearest::with_capacity(VOTERS)?;
+    let [voters, _] = NEAR;
+    let mut nearest = Nearest::with_capacity(voters)?;
     for _ in 0..ROUNDS {
         shares.clear();
         shares.extend(open.iter().map(|&point| {

@@ -9,8 +9,8 @@ use crate::answers::looks::tuning::Tuning;
 use crate::base::allocation::{OutOfMemory, filled};
 use crate::base::real::square_root;
 
-/// The score of a point that nothing decides.
-const UNKNOWN: f32 = 0.2;
+/// The score of a hull vertex, by look.
+pub(super) const SCORES: [f64; 3] = [1.0, 0.8, 0.55];
 
 /// The settings of one look.
 pub(super) struct Look {
@@ -84,7 +84,11 @@ impl Verdicts {
     pub(super) fn new(count: usize, with_scores: bool) -> Result<Self, OutOfMemory> {
         Ok(Self {
             of: filled(count, Verdict::Undecided)?,
-            scores: filled(if with_scores { count } else { 0 }, UNKNOWN)?,
+            // Where nothing decides, hidden is as sure as a vertex of the usual hull is visible.
+            scores: filled(
+                if with_scores { count } else { 0 },
+                (1.0 - SCORES[1]) as f32,
+            )?,
             longest: None,
         })
     }

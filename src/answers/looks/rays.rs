@@ -5,10 +5,8 @@ use glam::DVec3;
 
 use crate::base::allocation::{OutOfMemory, push, with_capacity};
 use crate::base::real::square_root;
+use crate::cloud::blocks::FANOUT;
 use crate::cloud::spatial::Bounds;
-
-/// Rays in a leaf, and boxes in a box one level up.
-const FANOUT: usize = 8;
 
 /// From where a cloud is looked at.
 #[derive(Clone, Copy, PartialEq)]

@@ -2,9 +2,8 @@
 
 use glam::DVec3;
 
-use crate::answers::looks::aside::ASIDE;
 use crate::answers::looks::followers::follow;
-use crate::answers::looks::look::{Look, Seen, Verdicts};
+use crate::answers::looks::look::{Look, SCORES, Seen, Verdicts};
 use crate::answers::looks::part::Part;
 use crate::answers::looks::rays::Projection;
 use crate::answers::looks::tuning::Tuning;
@@ -20,8 +19,6 @@ use crate::flip::lift::Lift;
 use crate::hull::{self, Memory, OuterFaces};
 use crate::view::resolved::check_viewpoint;
 
-/// The score of a hull vertex, by look.
-const SCORES: [f64; 3] = [1.0, 0.8, 0.55];
 /// How far, in standard deviations of the noise, a point may be from its place without noise. Chosen
 /// on four views of a cow with noise of two spacings.
 const DEVIATIONS: f64 = 10.0;
@@ -76,7 +73,7 @@ pub(crate) fn look_of_map(
         behind += DEVIATIONS * cloud.noise()?;
     }
     // The margins of a measured thickness are wide enough as they are.
-    let aside = thickness.map_or(0.0, |_| ASIDE * tuning.thickness);
+    let aside = thickness.map_or(0.0, |_| tuning.thickness);
     Ok((
         Flip::new(viewpoint, kernel),
         Depth { behind, aside },

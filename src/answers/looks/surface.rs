@@ -8,6 +8,7 @@ use crate::answers::looks::corners::Corners;
 use crate::answers::looks::look::{Look, Verdicts};
 use crate::answers::looks::part::{Left, Part};
 use crate::answers::looks::triangle::Triangle;
+use crate::answers::looks::tuning::LEAST;
 use crate::base::allocation::{OutOfMemory, push};
 use crate::base::beat;
 use crate::base::real::larger;
@@ -16,9 +17,7 @@ use crate::cloud::points::Points;
 use crate::cloud::statistics::SAMPLES;
 use crate::hull::{Exit, OuterFaces};
 
-/// A triangle of a hull may be surface if its longest edge is at most this many local spacings.
-const LEAST: f64 = 4.0;
-/// It may be longer if most triangles are long: up to this many times the length that
+/// A triangle of a surface may be longer than [`LEAST`] if most triangles are long: up to this many times the length that
 /// [`PERCENTILE`] percent of them have at most. Errors are the same within 1.6 to 1.9, and 75 to 85.
 const LONGER: f64 = 1.75;
 const PERCENTILE: usize = 80;

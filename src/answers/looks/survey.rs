@@ -19,13 +19,12 @@ use crate::cloud::neighbors::{Nearest, Neighbors};
 use crate::cloud::noise::{CLEAN, Noise, Surface};
 use crate::cloud::point_cloud::{PointCloud, Smooth, Survey};
 use crate::cloud::quadric::off_quadric;
-use crate::cloud::sheets::{NEAR, some};
+use crate::cloud::sheets::{LOW, NEAR, some};
 
 /// Points move at most so often.
 const PASSES: usize = 3;
-/// Moving points joins layers if, at this percentile, they lie off their surface afterwards by at most this
+/// Moving points joins layers if, at the high quartile, they lie off their surface afterwards by at most this
 /// share of the noise: by 0.12 to 0.31 in objects whose scans are up to half a spacing off, by 0.42 and more in registered rooms and streets.
-const HIGH: usize = 75;
 const JOINED: f64 = 0.36;
 
 /// Whether moved points lie in one surface.
@@ -57,7 +56,7 @@ fn are_joined(cloud: &PointCloud, noise: &Noise) -> Result<bool, OutOfMemory> {
             off.push(deviation);
         }
     }
-    Ok(percentile(&off, HIGH)?.is_some_and(|high| high < JOINED * noise.ratio))
+    Ok(percentile(&off, 100 - LOW)?.is_some_and(|high| high < JOINED * noise.ratio))
 }
 
 impl Smooth {

@@ -37,16 +37,14 @@ const GROWS: [f64; 2] = [0.12, 0.3];
 /// number on, the viewpoint is not at the scanner.
 const AWAY: [f64; 2] = [0.5, 0.05];
 const NEAR: f64 = 10.0;
-/// How much looser hulls are with a thickness, and by how many powers of two with range.
+/// How much looser hulls are with a thickness. Points that were moved lie so near their surface that hulls may have
+/// vertices behind it: the widest ring of a vertex shrinks by as much.
 const LOOSER: f64 = 0.5;
-const LOOSER_BY_RANGE: f64 = 4.0;
-const COSINE_POWER: f64 = 3.5;
-/// Points that were moved lie so near their surface that hulls may have vertices behind it: the widest
-/// ring of a vertex shrinks by this. Errors are the same with twice as much.
-const MOVED: f64 = 2.0;
-/// The largest local spacing of a surface with noise, in spacings. Strays in front of a surface have
-/// larger ones, and the triangles between them are none.
-const WIDEST: f64 = 3.0;
+/// The power with which hulls are looser where rays graze the surface, and where spacing grows with range.
+const POWER: f64 = 3.5;
+
+/// A triangle of a hull may be surface if its longest edge is at most this many local spacings.
+pub(super) const LEAST: f64 = 4.0;
 
 /// The numbers of one view, in the cloud's units.
 #[derive(Clone, Copy)]
@@ -112,15 +110,15 @@ impl Tuning {
         let is_thick = is_layered || thickness > 0.0;
         let is_scanned = measured.gap.is_some() || thickness > 0.0;
         let odds = Odds::of(
-            is_moved.then_some(measured.ratio),
-            is_scanned.then_some(thickness / statistics.spacing),
+            is_moved || is_scanned,
+            (is_scanned && !is_moved).then_some(thickness / statistics.spacing),
             growth,
         );
-        let mut ring = libm::pow(2.0, -LOOSER_BY_RANGE * growth);
+        let mut ring = libm::pow(2.0, -POWER * growth);
         let mut looser = ring;
         if is_thick {
             let cosine = cosine(noise, projection)?;
-            ring *= libm::pow((2.0 * cosine).min(1.0), COSINE_POWER);
+            ring *= libm::pow((2.0 * cosine).min(1.0), POWER);
             looser = LOOSER * ring;
         }
         let wide = if is_thick { 0.0 } else { 1.0 - ranged };
@@ -135,9 +133,10 @@ impl Tuning {
         Ok(Self {
             scales: scales(gap, looser),
             growth,
-            ring: if is_moved { MOVED * ring } else { ring },
+            ring: if is_moved { ring / LOOSER } else { ring },
             widest: if is_moved || is_thick {
-                WIDEST * statistics.spacing
+                // Strays in front of a surface have larger ones, and the triangles between them are none.
+                LEAST * statistics.spacing
             } else {
                 f64::INFINITY
             },
@@ -174,7 +173,7 @@ impl Tuning {
             wide: 1.0,
             thickness: 0.0,
             behind: 0.5 * noise.next_sheet,
-            odds: Odds::PLAIN,
+            odds: Odds::of(false, None, 0.0),
         }
     }
 }

@@ -272,7 +272,7 @@ export class PointCloud {
   /**
    * Finds the thickness of the looks at which scanners see most of the points that they measured, and few that are
    * hidden from them. This is for scans that were thinned or put together, where no other rule tells what is surface.
-   * Thicknesses are tried from 0 upwards, from every station: about ten views each. A larger one is taken only if it
+   * Thicknesses are tried from 0 upwards, from every station: up to twenty views each. A larger one is taken only if it
    * shows a larger share of own points than of hidden ones, and half a percent more for each doubling.
    *
    * @returns also the share of each station's own points that is seen, and of otherwise hidden points. With a number as
