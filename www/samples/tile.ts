@@ -9,7 +9,7 @@ import { box, cylinder, group, type Hit, type Material, nested, type Solid, sphe
  */
 
 const SEED = 32632;
-const ORIGIN: Vector = [512_000, 5_403_000, 420];
+const ORIGIN: Vector = [512_000, 5_403_000, 424];
 const SIDE = 320;
 /** The distance between two sweeps along the line of flight, and between two beams of a sweep. */
 const STEP = 0.66;

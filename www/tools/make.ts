@@ -45,6 +45,7 @@ export function openDialog(id: string, title: string, ...content: (Node | string
   dialog.showModal();
   // It is read and scrolled from its beginning.
   dialog.focus();
+  dialog.scrollTop = 0;
   return dialog;
 }
 
