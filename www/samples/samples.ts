@@ -26,7 +26,7 @@ export interface Sample {
   credit: { text: string; link?: { text: string; href: string } };
   /** The direction from the cloud's center to the first viewpoint. */
   direction?: [number, number, number];
-  /** A first viewpoint and its target, in the cloud's own coordinates. `narrow`: the target if the picture is higher than wide. */
+  /** A first viewpoint and its target, in the cloud's own coordinates. `narrow`: the target in a narrow picture. */
   eye?: Record<"at" | "target", [number, number, number]> & { narrow?: [number, number, number] };
   fieldOfView?: number;
 }

@@ -24,6 +24,9 @@ export interface Lens {
 /** The first direction for files without a chosen view: a little from the side and from above. */
 const FROM: Record<Up, [number, number, number]> = { y: [0.55, 0.4, 1], z: [0.55, -1, 0.5], "-y": [0.3, -0.25, -1] };
 
+/** Width by height of a picture that shows little beside its middle. */
+const NARROW = 0.8;
+
 /** A view that was asked for. Without a target the camera looks at the middle of the cloud. */
 export interface AskedView {
   at: Viewpoint;
@@ -60,7 +63,7 @@ export function findHome(
   }
   if (sample?.eye) {
     const { at: eye, target, narrow = target } = sample.eye;
-    return at(eye, inLocal(cloud, lens.aspect < 1 ? narrow : target));
+    return at(eye, inLocal(cloud, lens.aspect < NARROW ? narrow : target));
   }
 
   const body = whole ? null : cloud.body;
