@@ -35,8 +35,9 @@ test("the server of npm start has the samples the first time it runs, the exampl
     for (const path of [...pages, ...linked(/href="(source\/\w+\.txt)"/g)]) {
       expect(await text(`examples/${path}`), path).toContain("<title>");
     }
-    for (const path of linked(/src="\.\/(pictures\/\w+\.webp)"/g))
+    for (const path of linked(/src="\.\/(pictures\/\w+\.webp)"/g)) {
       expect(await text(`examples/${path}`)).toMatch(/^RIFF/);
+    }
     expect(await text("examples/room.ply")).toMatch(/^ply\n/);
     for (const name of ["index", "API", "PAGE"]) expect(await text(`docs/${name}.html`)).toContain("<h1");
   } finally {

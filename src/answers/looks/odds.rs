@@ -16,6 +16,8 @@ const POWERS: [f64; 2] = [1.4, 0.75];
 /// The shift on scans whose points were not moved: gaps in the scans show what is behind them, and what is far
 /// behind a surface may be seen beside it.
 const SCANNED: f64 = 2.2;
+/// For each spacing of noise that was removed.
+const NOISE: f64 = -1.4;
 /// For each power by which spacing grows with range, as seen from the scanner.
 const GROWTH: f64 = 2.9;
 /// For each spacing of thickness.
@@ -24,9 +26,15 @@ const LAYERS: f64 = -0.15;
 const LEAST: f64 = 0.01;
 
 impl Odds {
-    /// Points of measured surfaces that were not moved have a `thickness`, in spacings.
-    pub(super) fn of(is_measured: bool, thickness: Option<f64>, growth: f64) -> Self {
-        let shift = thickness.map_or(0.0, |thickness| (SCANNED + LAYERS * thickness).max(0.0));
+    /// `removed` is a length of noise in spacings; `left` is the thickness in spacings, of scans whose points were not
+    /// moved.
+    pub(super) fn of(removed: Option<f64>, left: Option<f64>, growth: f64) -> Self {
+        let shift = match (removed, left) {
+            (Some(removed), _) => NOISE * removed,
+            (None, Some(left)) => (SCANNED + LAYERS * left).max(0.0),
+            (None, None) => 0.0,
+        };
+        let is_measured = removed.is_some() || left.is_some();
         Self {
             shift: shift + GROWTH * growth,
             power: POWERS[usize::from(is_measured)],

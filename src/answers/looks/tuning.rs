@@ -40,8 +40,10 @@ const NEAR: f64 = 10.0;
 /// How much looser hulls are with a thickness. Points that were moved lie so near their surface that hulls may have
 /// vertices behind it: the widest ring of a vertex shrinks by as much.
 const LOOSER: f64 = 0.5;
-/// The power with which hulls are looser where rays graze the surface, and where spacing grows with range.
-const POWER: f64 = 3.5;
+/// By how many powers of two hulls are looser with range.
+const LOOSER_BY_RANGE: f64 = 4.0;
+/// The power of the cosine with which hulls are looser where rays graze the surface.
+const COSINE_POWER: f64 = 3.5;
 
 /// A triangle of a hull may be surface if its longest edge is at most this many local spacings.
 pub(super) const LEAST: f64 = 4.0;
@@ -110,15 +112,15 @@ impl Tuning {
         let is_thick = is_layered || thickness > 0.0;
         let is_scanned = measured.gap.is_some() || thickness > 0.0;
         let odds = Odds::of(
-            is_moved || is_scanned,
-            (is_scanned && !is_moved).then_some(thickness / statistics.spacing),
+            is_moved.then_some(measured.ratio),
+            is_scanned.then_some(thickness / statistics.spacing),
             growth,
         );
-        let mut ring = libm::pow(2.0, -POWER * growth);
+        let mut ring = libm::pow(2.0, -LOOSER_BY_RANGE * growth);
         let mut looser = ring;
         if is_thick {
             let cosine = cosine(noise, projection)?;
-            ring *= libm::pow((2.0 * cosine).min(1.0), POWER);
+            ring *= libm::pow((2.0 * cosine).min(1.0), COSINE_POWER);
             looser = LOOSER * ring;
         }
         let wide = if is_thick { 0.0 } else { 1.0 - ranged };
@@ -173,7 +175,7 @@ impl Tuning {
             wide: 1.0,
             thickness: 0.0,
             behind: 0.5 * noise.next_sheet,
-            odds: Odds::of(false, None, 0.0),
+            odds: Odds::of(None, None, 0.0),
         }
     }
 }
