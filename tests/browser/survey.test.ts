@@ -53,8 +53,7 @@ test("an organised PCD with gaps opens at once, and a message says how many plac
   const gaps = Math.ceil((width * width) / 7);
   expect((await status(page)).total).toBe(width * width - gaps);
   expect(await page.locator("#message p").textContent()).toBe(
-    `${gaps} of the 400 places in its rows and columns have no point (NaN) and are left out. ` +
-      "The file says where its points were measured from.",
+    `${gaps} of the 400 places in its rows and columns have no point (NaN) and are left out.`,
   );
 });
 
