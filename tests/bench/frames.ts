@@ -34,13 +34,15 @@ async function turned(made: Cloud): Promise<Row> {
     times!.push(performance.now() - begun);
     [mapped, maps, isBusy] = [asked, maps + 1, false];
   };
+  let asking = Promise.resolve();
   const begun = performance.now();
   for (let frame = 1; frame <= FRAMES; frame++) {
     await new Promise((resolve) => setTimeout(resolve, begun + FRAME * frame - performance.now()));
     ages!.push(now - mapped);
     now = SPEED * frame;
-    if (!isBusy) void ask();
+    if (!isBusy) asking = ask();
   }
+  await asking;
   await cloud.dispose();
   return {
     cloud: made.name,
