@@ -105,6 +105,8 @@ it("takes some of the points, and refuses what is no cloud", async () => {
     [{}, "ply"],
     [{ positions: [1, 2, 3] }, "ply"],
     [{ positions, colors: colors.subarray(3) }, "ply"],
+    [{ positions, colors: Float32Array.from(colors, (byte) => byte / 255) }, "ply"],
+    [{ positions, colors: Uint16Array.from(colors, (byte) => 257 * byte) }, "las"],
     [{ positions, columns: { a: shares.subarray(1) } }, "las"],
     [{ positions }, "xyz"],
     [{ positions }, "ply", { indices: Uint32Array.of(3) }],

@@ -78,6 +78,12 @@ function readCloudToWrite(cloud: unknown) {
     values: checked(`columns.${name}`, values, count),
   }));
   const packed = colors === undefined ? undefined : checked("colors", colors, 3 * count);
+  if (packed && !(packed instanceof Uint8Array || packed instanceof Uint8ClampedArray)) {
+    throw new HprError(
+      "option",
+      `colors must be a Uint8Array of red, green and blue from 0 to 255, got ${describe(colors)}`,
+    );
+  }
   // Colors that the columns hold, too, are those of the columns, which may have more bits.
   return {
     positions: positions as Float64Array<ArrayBuffer>,
