@@ -15,5 +15,5 @@ export async function scale(args: string[]): Promise<void> {
   if (failed > 0) throw new Problem(`${failed} tests of the Python package failed.`);
   if (left > 0) throw new Problem(`${left} tests of the Python package were skipped.`);
   const wrong = "Tiles answer otherwise than one cloud, or take too much";
-  await mustRun(python, ["python/scale/suite.py", ...args], wrong, { show: "results" });
+  await mustRun(python, ["python/tests/scale.py", ...args], wrong, { show: "results" });
 }

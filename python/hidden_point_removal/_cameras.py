@@ -7,11 +7,12 @@ import math
 import os
 import re
 import struct
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ._arguments import refusal
 from ._native import HprError, PointCloud
@@ -29,11 +30,16 @@ class CameraOfImage(NamedTuple):
     """The name of the image as the file gives it."""
 
 
+Size = tuple["float | None", "float | None"]
+"""The width and the height of the images, as the caller gives them."""
+Read = TypeVar("Read")
+
+
 class Problem(Exception):
     """A file breaks the rules of its format. The words follow "FILE cannot be read: "."""
 
 
-def is_number(value):
+def is_number(value: object) -> bool:
     return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
 
 
@@ -41,7 +47,7 @@ ROUNDED = 1e-3
 """How far a matrix of a file may be from a rotation: single precision, written as text, is up to 1.5e-4 away."""
 
 
-def checked(camera, where):
+def checked(camera: Any, where: str) -> Camera:
     for name in POSES.values():
         if name in camera:
             camera = {**camera, name: with_rotation(camera[name])}
@@ -49,10 +55,11 @@ def checked(camera, where):
         PROBE.visible_from_camera(camera)
     except HprError as problem:
         raise Problem(f"{where}: {problem}") from problem
-    return camera
+    read: Camera = camera
+    return read
 
 
-def with_rotation(pose):
+def with_rotation(pose: Any) -> Any:
     """The pose with the nearest rotation, where its numbers were rounded to fewer digits than cameras take."""
     try:
         rows = np.array(pose, dtype=float)
@@ -70,11 +77,11 @@ def with_rotation(pose):
     return rows
 
 
-def looks_binary(data):
+def looks_binary(data: bytes) -> bool:
     return any(byte < 9 or 13 < byte < 32 for byte in data[:4096])
 
 
-def lines(data):
+def lines(data: bytes) -> Iterator[tuple[str, str]]:
     """(place, text) of each line."""
     if looks_binary(data):
         raise Problem("it is not text")
@@ -82,7 +89,7 @@ def lines(data):
     return ((f"line {number}", line) for number, line in enumerate(lines, 1))
 
 
-def floats(words, where, field, *counts):
+def floats(words: list[str], where: str, field: str, *counts: int) -> list[float]:
     try:
         numbers = [float(word.replace("_", "?")) for word in words]
     except ValueError:
@@ -104,10 +111,10 @@ MODELS = {"SIMPLE_PINHOLE": 0, "PINHOLE": 0, "SIMPLE_RADIAL": 1, "RADIAL": 2, "O
 class Lines:
     """COLMAP's text, as `Bytes` reads the same in binary."""
 
-    def __init__(self, data):
+    def __init__(self, data: bytes) -> None:
         self.lines = lines(data)
 
-    def entries(self, _name, _least):
+    def entries(self, _name: str, _least: int) -> Iterator[None]:
         for self.where, self.text in self.lines:
             self.words = self.text.split()
             if self.words and not self.words[0].startswith("#"):
@@ -115,7 +122,7 @@ class Lines:
                 if self.words:
                     raise Problem(f"{self.where} goes on after its last field: {self.text[:60]!r}")
 
-    def integer(self, field):
+    def integer(self, field: str) -> int:
         word = self.words.pop(0) if self.words else ""
         if not re.fullmatch(r"\d{1,15}", word, re.ASCII):
             raise Problem(f"{self.where} has no number for {field}: {self.text[:60]!r}")
@@ -123,20 +130,20 @@ class Lines:
 
     long = integer
 
-    def model(self):
+    def model(self) -> str:
         return self.words.pop(0) if self.words else ""
 
-    def floats(self, count, field):
+    def floats(self, count: int, field: str) -> list[float]:
         words, self.words = self.words[:count], self.words[count:]
         return floats(words, self.where, field, count)
 
-    def name(self):
+    def name(self) -> str:
         self.words, words = [], self.words
         if not words:
             raise Problem(f"{self.where} has no NAME: {self.text[:60]!r}")
         return self.text.strip().split(None, 9)[9]
 
-    def skip_points(self):
+    def skip_points(self) -> None:
         where, text = next(self.lines, ("", ""))
         words = text.split()
         # A file without these lines would otherwise lose every other image.
@@ -148,10 +155,10 @@ class Lines:
 class Bytes:
     """COLMAP's binary files: little-endian numbers one after another."""
 
-    def __init__(self, data):
+    def __init__(self, data: bytes) -> None:
         self.data, self.at = data, 0
 
-    def entries(self, name, least):
+    def entries(self, name: str, least: int) -> Iterator[None]:
         count = self.count(f"the number of {name}s", least)
         for number in range(1, count + 1):
             self.where = f"{name} {number} of {count}, at byte {self.at},"
@@ -159,45 +166,45 @@ class Bytes:
         if self.at < len(self.data):
             raise Problem(f"it goes on at byte {self.at}, after its last entry")
 
-    def take(self, kind, field):
+    def take(self, kind: str, field: str) -> tuple[Any, ...]:
         return struct.unpack_from(kind, self.data, self.skip(struct.calcsize(kind), field))
 
-    def skip(self, length, field):
+    def skip(self, length: int, field: str) -> int:
         if length > len(self.data) - self.at:
             raise Problem(f"it ends at byte {len(self.data)}, in {field}")
         self.at += length
         return self.at - length
 
-    def count(self, field, least):
+    def count(self, field: str, least: int) -> int:
         at, count = self.at, self.long(field)
         if count * least > len(self.data) - self.at:
             raise Problem(f"byte {at} has {count} for {field}, more than the file holds")
         return count
 
-    def integer(self, field):
-        return self.take("<I", field)[0]
+    def integer(self, field: str) -> int:
+        return int(self.take("<I", field)[0])
 
-    def long(self, field):
-        return self.take("<Q", field)[0]
+    def long(self, field: str) -> int:
+        return int(self.take("<Q", field)[0])
 
-    def model(self):
+    def model(self) -> str:
         number = self.integer("MODEL_ID")
         return [*MODELS][number] if number < len(MODELS) else f"MODEL_ID {number}"
 
-    def floats(self, count, field):
+    def floats(self, count: int, field: str) -> list[float]:
         return list(self.take(f"<{count}d", field))
 
-    def name(self):
+    def name(self) -> str:
         end = self.data.find(b"\0", self.at)
         if end < 0:
             raise Problem(f"byte {self.at} begins a text for NAME that does not end")
         return self.data[self.skip(end + 1 - self.at, "NAME") : end].decode("utf-8", "replace")
 
-    def skip_points(self):
+    def skip_points(self) -> None:
         self.skip(24 * self.count("the number of POINTS2D", 24), "POINTS2D")
 
 
-def read_lenses(reader):
+def read_lenses(reader: Lines | Bytes) -> dict[int, dict[str, Any]]:
     """The lens of each CAMERA_ID."""
     lenses = {}
     for _ in reader.entries("camera", 24):
@@ -215,7 +222,7 @@ def read_lenses(reader):
     return lenses
 
 
-def read_images(reader, lenses):
+def read_images(reader: Lines | Bytes, lenses: dict[int, dict[str, Any]]) -> list[CameraOfImage]:
     images = []
     for _ in reader.entries("image", 73):
         reader.integer("IMAGE_ID")
@@ -247,7 +254,7 @@ MATRICES = {"P0": 12, "P1": 12, "P2": 12, "P3": 12, "R0_rect": 9, "R_rect": 9, "
 POSES = {"cameraToWorld": "camera_to_world", "worldToCamera": "world_to_camera"}
 
 
-def read_json(data, size):
+def read_json(data: bytes, size: Size) -> list[CameraOfImage]:
     """nerfstudio's `transforms.json`, or cameras of this package."""
     try:
         found = json.loads(data.decode("utf-8-sig", "replace"), parse_constant=lambda name: name)
@@ -262,7 +269,7 @@ def read_json(data, size):
     return [_frame(found, frame, f"frames[{number}]", size) for number, frame in enumerate(frames)]
 
 
-def _own(given, where):
+def _own(given: Any, where: str) -> CameraOfImage:
     """A camera as the methods take it, here or in JavaScript."""
     if not isinstance(given, dict) or not isinstance(given.get("image", ""), str):
         raise Problem(f"{where} must be an object, and its image a text")
@@ -270,19 +277,19 @@ def _own(given, where):
     return CameraOfImage(checked(camera, where), given.get("image", ""))
 
 
-def _frame(file, frame, where, size):
+def _frame(file: dict[str, Any], frame: Any, where: str, size: Size) -> CameraOfImage:
     """A frame's own numbers go before those of the file."""
     if not isinstance(frame, dict) or not isinstance(frame.get("file_path"), str):
         raise Problem(f"{where} must be an object, and its file_path a text")
     fields = {**file, **{name: value for name, value in frame.items() if value is not None}}
 
-    def number(name, usual):
+    def number(name: str, usual: float | None) -> Any:
         value = usual if fields.get(name) is None else fields[name]
         if not is_number(value):
             raise Problem(f"{where}.{name} must be a finite number, got {value!r}")
         return value
 
-    def focal(name, angle, length, usual):
+    def focal(name: str, angle: str, length: float, usual: float | None) -> Any:
         opening = math.tan(number(angle, 0) / 2)
         return number(name, length / 2 / opening if opening else usual)
 
@@ -307,7 +314,7 @@ def _frame(file, frame, where, size):
     return CameraOfImage(checked(camera, where), frame["file_path"])
 
 
-def read_kitti(data, size):
+def read_kitti(data: bytes, size: Size) -> list[CameraOfImage]:
     """The cloud is in the coordinates of the lidar; without `Tr_velo_to_cam`, in those of camera 0."""
     found, cameras = {}, []
     for where, text in lines(data):
@@ -339,7 +346,7 @@ def read_kitti(data, size):
     return cameras
 
 
-def read_opencv(data, size):
+def read_opencv(data: bytes, size: Size) -> list[CameraOfImage]:
     """A calibration that OpenCV or ROS has written as YAML. It has no pose: the camera is at the origin."""
     fields, last = {}, ["", ""]
     for where, text in lines(data):
@@ -352,7 +359,7 @@ def read_opencv(data, size):
             raise Problem(f"{where} has {match[1]} a second time")
         fields[name] = last
 
-    def numbers(name, *counts):
+    def numbers(name: str, *counts: int) -> list[float] | None:
         """The numbers of a field: alone, as a list, or as the data of a matrix. None without it."""
         if name not in fields:
             return None
@@ -360,8 +367,8 @@ def read_opencv(data, size):
         found = re.search(r"\[([^\]]*)\]", text)
         if found is None and ("[" in text or counts[0] != 1):
             raise Problem(f"{where} has no list for {name}")
-        sizes = [re.search(rf"\b{key}: *(\d{{1,9}})", text) for key in ("rows", "cols")]
-        promised = counts if None in sizes else {int(sizes[0][1]) * int(sizes[1][1])} & {*counts}
+        rows, cols = (re.search(rf"\b{key}: *(\d{{1,9}})", text) for key in ("rows", "cols"))
+        promised = {int(rows[1]) * int(cols[1])} & {*counts} if rows and cols else counts
         return floats(re.findall(r"[^\s,]+", found[1] if found else text), where, name, *promised)
 
     matrix = numbers("camera_matrix", 9)
@@ -370,7 +377,7 @@ def read_opencv(data, size):
     where, (fx, skew, cx, _, fy, cy, *_) = fields["camera_matrix"][0], matrix
     if skew != 0:
         raise Problem(f"{where} has {skew:g} for the skew of camera_matrix, which must be 0")
-    width, height = ((numbers(name, 1) or [usual])[0] for name, usual in zip(("image_width", "image_height"), size))
+    width, height = (own[0] if (own := numbers(name, 1)) else usual for name, usual in zip(("image_width", "image_height"), size))
     if width is None or height is None:
         raise Problem("it has no image_width and image_height; give width and height")
     lens = {"fx": fx, "fy": fy, "cx": cx + 0.5, "cy": cy + 0.5, "width": width, "height": height, "world_to_camera": np.eye(4)}
@@ -411,13 +418,13 @@ def read_cameras(
         raise refusal("option", f"width and height must both be finite and positive numbers, got {width!r} and {height!r}")
     first, *second = _files(source)
     if not second:
-        return _reading(first, _one, size)
+        return _reading(first, lambda data: _one(data, size))
     reader = Lines if first.suffix.lower() == ".txt" else Bytes
     lenses = _reading(first, lambda data: read_lenses(reader(data)))
     return _reading(second[0], lambda data: read_images(reader(data), lenses))
 
 
-def _files(source):
+def _files(source: str | os.PathLike[str] | Iterable[str | os.PathLike[str]]) -> list[Path]:
     """One file, or COLMAP's two, cameras first."""
     try:
         paths = [Path(path) for path in ([source] if isinstance(source, (str, os.PathLike)) else source)]
@@ -437,16 +444,16 @@ def _files(source):
     raise refusal("load", f"{source} must hold cameras and images (.bin or .txt), transforms.json or calib.txt")
 
 
-def _reading(path, read, *more):
+def _reading(path: Path, read: Callable[[bytes], Read]) -> Read:
     try:
-        return read(path.read_bytes(), *more)
+        return read(path.read_bytes())
     except Problem as problem:
         raise refusal("load", f"{path} cannot be read: {problem}") from problem
     except (OSError, ValueError) as problem:
         raise refusal("load", f"{path} cannot be read: {getattr(problem, 'strerror', None) or problem}") from problem
 
 
-def _one(data, size):
+def _one(data: bytes, size: Size) -> list[CameraOfImage]:
     """One file that holds everything."""
     start = data[: 1 << 16].decode("utf-8-sig", "replace")
     if re.match(r"\s*[\[{]", start):

@@ -194,12 +194,13 @@ def _mapped(client: Any, task: Any, jobs: list[Any], shared: dict[str, Any]) -> 
     spread = map if client is None else getattr(client, "map", client)
     if not callable(spread):
         raise refusal("option", f"client must be a dask.distributed.Client or have a map, got {client!r:.60}")
-    return spread(partial(task, **shared), jobs)  # type: ignore[no-any-return]
+    return spread(partial(task, **shared), jobs)
 
 
 def _on_dask(client: Any, task: Any, jobs: list[Any], shared: dict[str, Any]) -> Iterator[Arrays]:
     from dask.distributed import CancelledError, TimeoutError, wait
 
+    wait_for: Any = wait
     held = {name: client.scatter([value], hash=False)[0] for name, value in shared.items()}
     idle = 0
     try:
@@ -209,7 +210,7 @@ def _on_dask(client: Any, task: Any, jobs: list[Any], shared: dict[str, Any]) ->
             future = futures.pop()
             while not future.done():
                 try:
-                    wait([future], timeout=1)
+                    wait_for([future], timeout=1)
                 except TimeoutError:
                     idle = 0 if client.status == "running" and client.nthreads() else idle + 1
                 if idle > PATIENCE:

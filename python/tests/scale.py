@@ -1,4 +1,4 @@
-"""Tiles against one cloud: python suite.py [--points 5000000] [--files 16]
+"""Tiles against one cloud: python scale.py [--points 5000000] [--files 16]
 
 Cuts a generated city into LAZ files and asks it from five viewpoints: as one cloud, by the plain lines below, by
 `visible_from_tiles`, by a process that is killed and goes on, and on a Dask cluster whose worker is killed. Each runs in a
