@@ -171,11 +171,15 @@ fn scan(
     rows: usize,
     noise: f64,
 ) -> Vec<[Place; 2]> {
+    let angle = |i: usize| (i as f64 + 0.5) * core::f64::consts::PI / rows as f64;
+    // The rays of a column lie in one half of a plane, which meets few blocks.
+    let columns: Vec<_> = (0..2 * rows)
+        .map(|column| near(blocks, station, angle(column).sin_cos()))
+        .collect();
     let mut seen = Vec::new();
     for row in 0..rows {
-        for column in 0..2 * rows {
-            let [up, turn] =
-                [row, column].map(|i| (i as f64 + 0.5) * core::f64::consts::PI / rows as f64);
+        for (column, blocks) in columns.iter().enumerate() {
+            let [up, turn] = [row, column].map(angle);
             let ray = [up.sin() * turn.cos(), up.sin() * turn.sin(), up.cos()];
             let Some(range) = first(blocks, station, ray) else {
                 continue;
@@ -186,6 +190,16 @@ fn scan(
         }
     }
     seen
+}
+
+/// The blocks whose upright cylinders meet the upright half plane from the station in a direction.
+fn near(blocks: &[Block], station: Place, (sin, cos): (f64, f64)) -> Vec<Block> {
+    let meets = |[low, high]: &&Block| {
+        let [x, y] = [0, 1].map(|axis| 0.5 * (low[axis] + high[axis]) - station[axis]);
+        let radius = 0.51 * (high[0] - low[0]).hypot(high[1] - low[1]);
+        (x * sin - y * cos).abs() <= radius && x * cos + y * sin >= -radius
+    };
+    blocks.iter().filter(meets).copied().collect()
 }
 
 /// One point in each cube.
