@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import json
 import re
 import sys
 from collections.abc import Sequence
@@ -41,14 +40,19 @@ def main(words: Sequence[str] | None = None) -> None:
                         help=f"{', '.join(KINDS)}; the points of several are numbered one after another, and one flip answers")  # fmt: skip
     parser.add_argument("--from", dest="eyes", action="append", required=True, type=_place, metavar="X,Y,Z",
                         help="a viewpoint, in the units of the file; may be given again")  # fmt: skip
-    parser.add_argument("-o", "--output", type=Path, metavar="OUT", help="a .npy or .txt file, for the indices of the points that some viewpoint sees")
+    parser.add_argument("-o", "--output", action="append", type=Path, metavar="OUT", help="a .npy or .txt file, for the indices of the points that some viewpoint sees")
     for name, value, about in FLAGS:
-        parser.add_argument(f"--{name}", type=READERS.get(name, _value), metavar=value, help=about.replace("%", "%%"))
-    parser.add_argument("--threads", type=int, metavar="N", help="from 1 to 256; they change no answer. Default: all cores from 200,000 points on, else 1")
+        parser.add_argument(f"--{name}", action="append", type=_within if name == "within" else _value, metavar=value, help=about.replace("%", "%%"))
+    parser.add_argument("--threads", action="append", type=int, metavar="N",
+                        help="from 1 to 256; they change no answer. Default: all cores from 200,000 points on, else 1")  # fmt: skip
     parser.add_argument("--version", action="version", version=__version__)
     given = vars(parser.parse_args(_joined(sys.argv[1:] if words is None else words)))
-    files, eyes, output = (given.pop(name) for name in ("files", "eyes", "output"))
-    options = {name: value for name, value in given.items() if value is not None}
+    files, eyes = given.pop("files"), given.pop("eyes")
+    for name, values in given.items():
+        if values and len(values) > 1:
+            parser.error(f"--{name} is given twice")
+    options = {name: values[0] for name, values in given.items() if values}
+    output = options.pop("output", None)
     if len(files) == 1 and not options.keys() & {"radius", "exponent", "inversion"}:
         options.setdefault("looks", 3)
     if options.get("looks") == 0:
@@ -61,7 +65,7 @@ def main(words: Sequence[str] | None = None) -> None:
         # What is wrong is refused before a file is read.
         PointCloud([[0, 0, 0]]).visible_from([0, 0, 0], **options)
     except HprError as problem:
-        parser.error(f"--{problem}")
+        parser.error(f"--{problem} (--help shows how)")
     try:
         _run(files, eyes, output, options)
     except (HprError, OSError, ImportError) as problem:
@@ -96,41 +100,29 @@ def _joined(words: Sequence[str]) -> list[str]:
     return joined
 
 
-def _numbers(text: str, counts: tuple[int, ...], words: str) -> list[float]:
+def _value(text: str) -> Any:
+    """A number, or else a word. KIND:VALUE is a dictionary."""
+    kind, colon, value = text.partition(":")
+    if colon:
+        return {kind: _value(value)}
     try:
-        numbers = [float(number) for number in text.split(",")]
+        number = float(text)
     except ValueError:
-        numbers = []
-    if len(numbers) not in counts:
-        raise argparse.ArgumentTypeError(f"{words} is needed, not {text}")
-    return numbers
+        return text
+    return int(number) if number.is_integer() else number
 
 
 def _place(text: str) -> list[float]:
-    return _numbers(text, (3,), "X,Y,Z")
+    numbers = [_value(word) for word in text.split(",")]
+    if len(numbers) != 3 or not all(isinstance(number, (int, float)) for number in numbers):
+        raise argparse.ArgumentTypeError(f"X,Y,Z is needed, not {text}")
+    return numbers
 
 
 def _within(text: str) -> dict[str, Any]:
-    numbers = _numbers(text, (1, 6), "a distance, or X,Y,Z,X,Y,Z (two corners of a box)")
-    return {"distance": numbers[0]} if len(numbers) == 1 else {"box": [numbers[:3], numbers[3:]]}
+    numbers = [_value(word) for word in text.split(",")]
+    return {"distance": numbers[0]} if len(numbers) == 1 else {"box": [numbers[: len(numbers) // 2], numbers[len(numbers) // 2 :]]}
 
-
-def _inversion(text: str) -> Any:
-    kind, _, parameter = text.partition(":")
-    if text != "spherical" and (kind not in ("power", "exponential") or not parameter):
-        raise argparse.ArgumentTypeError(f"spherical, power:G, exponential:C or exponential:auto is needed, not {text}")
-    return {kind: _value(parameter)} if parameter else text
-
-
-def _value(text: str) -> Any:
-    """A number, or else a word."""
-    try:
-        return json.loads(text)
-    except ValueError:
-        return text
-
-
-READERS = {"inversion": _inversion, "within": _within}
 
 if __name__ == "__main__":
     main()

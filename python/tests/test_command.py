@@ -25,7 +25,7 @@ def run(folder, *words):
     (["--looks", 3, "--thickness", 0.1, "--surface", "clean"], {"looks": 3, "thickness": 0.1, "surface": "clean"}),
     (["--inversion", "power:1.5", "--within", 6], {"inversion": {"power": 1.5}, "within": {"distance": 6}}),
     (["--inversion", "exponential:auto"], {"inversion": {"exponential": "auto"}}),
-    (["--inversion", "spherical", "--exponent", 2, "--within", "-1,-1,-1,1,1,1"], {"exponent": 2, "within": {"box": [[-1] * 3, [1] * 3]}}),
+    (["--inversion", "spherical", "--exponent", ".5", "--within", "-1,-1,-1,1,1,1"], {"exponent": 0.5, "within": {"box": [[-1] * 3, [1] * 3]}}),
     (["--radius", "opposite", "--threads", 2], {"radius": "opposite"}),
 ])
 def test_a_file(tmp_path, words, options):
@@ -33,7 +33,7 @@ def test_a_file(tmp_path, words, options):
     eyes = [[0, 0, 5], [-5, 0.5, 0]]
     done = run(tmp_path, "cloud.npy", "--from", "0,0,5", "--from", "-5,.5,0", *words, "-o", "seen.npy")
     seen = [PointCloud(POINTS).visible_from(eye, **options).indices for eye in eyes]
-    said = [f"{eye}: {len(own)} of 2000 points are visible" for eye, own in zip(("0.0,0.0,5.0", "-5.0,0.5,0.0"), seen)]
+    said = [f"{eye}: {len(own)} of 2000 points are visible" for eye, own in zip(("0,0,5", "-5,0.5,0"), seen)]
     assert (done.returncode, done.stdout.splitlines()) == (0, said), done.stderr
     assert np.array_equal(np.load(tmp_path / "seen.npy"), np.unique(np.concatenate(seen)))
 
@@ -55,8 +55,12 @@ def test_help_and_what_is_refused(tmp_path):
     for words, said in (
         (["a.npy", "--from", "0,0"], "argument --from: X,Y,Z is needed, not 0,0"),
         (["b.npy", *PLACE, "--looks", "4"], "--looks must be from 2 to 3, got 4"),
-        (["b.npy", *PLACE, "--inversion", "power"], "argument --inversion: spherical, power:G"),
-        (["b.npy", *PLACE, "--within", "1,2"], "argument --within: a distance, or X,Y,Z,X,Y,Z"),
+        (["b.npy", *PLACE, "--inversion", "power"], "--inversion must be "),
+        (["b.npy", *PLACE, "--inversion", "power:x"], "--inversion"),
+        (["b.npy", *PLACE, "--within", "1,2"], "--within: box must be numbers of the shape (2, 3), got the shape (2, 1) (--help shows how)"),
+        (["b.npy", *PLACE, "--within", "x"], "--within: distance must be a number"),
+        (["b.npy", *PLACE, "--radius", "9", "--radius=9"], "--radius is given twice"),
+        (["b.npy", *PLACE, "-o", "a.txt", "--output", "b.txt"], "--output is given twice"),
         (["b.npy", *PLACE, "--exponent", "1", "--radius", "9"], "exclude each other"),
         (["a.npy", *PLACE, "-o", "a.csv"], "a.csv: the output must be a .npy or .txt file"),
         (["a.npy", *PLACE, "-o", "a.npy"], "a.npy: the output must not be an input"),

@@ -12,30 +12,19 @@ export function readViewpoint(text: string): number[] {
   return numbers;
 }
 
-/** The value of an option of a view. What the option allows is checked by the library. */
+/** The value of an option of a view: a number, or else a word. KIND:VALUE is an object. The library checks it. */
 export function readOption(name: string, text: string): unknown {
-  if (name === "inversion") return readInversion(text);
-  if (name === "within") return readWithin(text);
+  if (name === "within") {
+    const numbers = text.split(",").map(readValue);
+    return numbers.length === 1 ? { distance: numbers[0] } : { box: [numbers.slice(0, 3), numbers.slice(3)] };
+  }
+  const colon = text.indexOf(":");
+  return colon < 0 ? readValue(text) : { [text.slice(0, colon)]: readValue(text.slice(colon + 1)) };
+}
+
+function readValue(text: string): unknown {
   const value = numberIn(text);
   return Number.isNaN(value) ? text : value;
-}
-
-function readInversion(text: string): unknown {
-  const [kind = "", word = "", ...more] = text.split(":");
-  const parameter = word === "auto" ? word : numberIn(word);
-  if (text !== "spherical" && (more.length > 0 || Number.isNaN(parameter))) {
-    throw new UsageProblem(`--inversion needs spherical, power:G, exponential:C or exponential:auto, not ${text}`);
-  }
-  return text === "spherical" ? text : { [kind]: parameter };
-}
-
-/** A distance, or a box. */
-function readWithin(text: string): unknown {
-  const numbers = text.split(",").map(numberIn);
-  if (numbers.some(Number.isNaN) || (numbers.length !== 1 && numbers.length !== 6)) {
-    throw new UsageProblem(`--within needs a distance, or X,Y,Z,X,Y,Z (two corners of a box), not ${text}`);
-  }
-  return numbers.length === 1 ? { distance: numbers[0] } : { box: [numbers.slice(0, 3), numbers.slice(3)] };
 }
 
 export function oneOf<T extends string>(option: string, text: string | undefined, words: readonly T[]): T | undefined {
