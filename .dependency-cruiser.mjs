@@ -20,7 +20,6 @@ const PACKAGE = [
   ["three", "three/"],
   ["nodes", "nodes/"],
   ["potree", "potree/"],
-  ["react-three-fiber", "react-three-fiber/"],
   ["deck", "deck/"],
   ["stream", "stream/"],
   ["api", "api\\.ts$"],
@@ -98,7 +97,7 @@ const forbidden = [
     severity: "error",
     from: {
       path: "^src/ts/",
-      pathNot: "^src/ts/((three|nodes|potree|react-three-fiber|deck)/|three-webgpu\\.ts$|formats/gltf-data\\.ts$)",
+      pathNot: "^src/ts/((three|nodes|potree|deck)/|(three-webgpu|react-three-fiber)\\.ts$|formats/gltf-data\\.ts$)",
     },
     to: { path: "node_modules/(three|@types/three|react|@types/react|@react-three|@deck\\.gl)/" },
   },
@@ -113,7 +112,7 @@ const forbidden = [
     name: "one adapter's peers",
     comment: "The layer for deck.gl needs no three.js, and the filters need no deck.gl.",
     severity: "error",
-    from: { path: "^src/ts/(three|nodes|potree|react-three-fiber)/" },
+    from: { path: "^src/ts/((three|nodes|potree)/|react-three-fiber)" },
     to: { path: "(node_modules/@deck\\.gl/|^src/ts/deck/)" },
   },
   {
@@ -121,7 +120,7 @@ const forbidden = [
     comment: "As above, the other way.",
     severity: "error",
     from: { path: "^src/ts/deck/" },
-    to: { path: "(node_modules/(three|react|@react-three)/|^src/ts/(three|nodes|react-three-fiber)/)" },
+    to: { path: "(node_modules/(three|react|@react-three)/|^src/ts/((three|nodes)/|react-three-fiber))" },
   },
   {
     name: "Node's modules only in the command",

@@ -5,8 +5,7 @@ import { promisify } from "node:util";
 
 import { FormatProblem } from "../formats/problem.js";
 import { allocating } from "../formats/builder.js";
-import { unpacked } from "../formats/gzip.js";
-import { bytesSource } from "../formats/source.js";
+import { bytesSource, unpacked } from "../formats/source.js";
 
 const CHUNK = 1 << 24;
 

@@ -1,6 +1,5 @@
-import { HprError } from "../base/errors.js";
+import { allocating, HprError } from "../base/errors.js";
 import { requireInstance } from "../instance/instance.js";
-import { allocating } from "../base/memory.js";
 import { givenOptions, integer, number } from "../query/options.js";
 import { readViewpoint, type Viewpoint } from "../query/positions.js";
 

@@ -1,6 +1,5 @@
-import { describe, HprError, naming } from "../base/errors.js";
+import { allocating, describe, HprError, naming } from "../base/errors.js";
 import { requireInstance } from "../instance/instance.js";
-import { allocating } from "../base/memory.js";
 import { givenOptions } from "../query/options.js";
 import {
   MAX_LENGTH,

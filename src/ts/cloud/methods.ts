@@ -1,5 +1,4 @@
-import { describe, HprError, typeTag } from "../base/errors.js";
-import { allocating } from "../base/memory.js";
+import { allocating, describe, HprError, typeTag } from "../base/errors.js";
 import { plainView, typedArrayType } from "../base/typed-arrays.js";
 import { CALIBRATION_ROWS, calibrationAnswer, calibrationQuery } from "../query/calibration.js";
 import { isCamera, isCameraSeat, readCamera, readSeats } from "../query/camera.js";

@@ -1,7 +1,6 @@
 import type { Answers, Found, Query, QueryKind } from "../query/queries.js";
-import { HprError, naming } from "../base/errors.js";
+import { allocating, HprError, naming } from "../base/errors.js";
 import type { Bindings, Instance } from "../instance/instance.js";
-import { allocating } from "../base/memory.js";
 import { checkStations } from "../query/calibration.js";
 import { newCounts, viewFrom } from "../query/surveys.js";
 import { hasScores, resolvedInversion, type ViewSettings } from "../query/view-options.js";

@@ -1,6 +1,5 @@
 import type { Found, Photographed } from "../query/queries.js";
-import { describe, HprError } from "../base/errors.js";
-import { allocating } from "../base/memory.js";
+import { allocating, describe, HprError } from "../base/errors.js";
 import { isNumberArray, type NumberArray, plainNumbers, typedArrayType } from "../base/typed-arrays.js";
 import { type Instance, requireInstance } from "../instance/instance.js";
 import { type CameraNumbers, type ImageCamera, readCameras } from "../query/camera.js";

@@ -1,7 +1,6 @@
 import type { Answers, ChosenRadius, Found } from "../query/queries.js";
-import { HprError } from "../base/errors.js";
+import { allocating, HprError } from "../base/errors.js";
 import { addTag } from "../base/objects.js";
-import { allocating } from "../base/memory.js";
 import { plainView } from "../base/typed-arrays.js";
 import { INVERTED } from "../query/camera.js";
 import type { ResolvedInversion } from "../query/view-options.js";

@@ -1,9 +1,7 @@
 import { createIterable, type Viewport } from "@deck.gl/core";
 
-import { HprError } from "../base/errors.js";
-import { allocating } from "../base/memory.js";
-import type { Place } from "../query/place.js";
-import { isFloatArray } from "../query/positions.js";
+import { allocating, HprError } from "../base/errors.js";
+import { isFloatArray, type Place } from "../query/positions.js";
 
 /** 16 numbers by columns, as deck.gl's `modelMatrix`. */
 export type Matrix = ArrayLike<number>;

@@ -3,7 +3,7 @@ import { VisibilityMap } from "../cloud/visibility-map.js";
 import { Follower, type RecoveryTimes, type Round } from "../follow/follower.js";
 import { type AnswerKind, type FollowSettings, stagesFor } from "../follow/options.js";
 import { FollowedView, type Seen } from "../follow/view.js";
-import type { Place } from "../query/place.js";
+import type { Place } from "../query/positions.js";
 import { WorkerPointCloud } from "../worker/client.js";
 import { see } from "../worker/followed-cloud.js";
 

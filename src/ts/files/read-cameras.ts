@@ -5,8 +5,7 @@ import { looksBinary } from "../formats/text.js";
 import { givenOptions } from "../query/options.js";
 import type { CameraOfImage, ImageSize } from "./cameras/camera-file.js";
 import { readCameraBytes, readImageBytes, readCameraLines, readImageLines } from "./cameras/colmap.js";
-import { readKitti, readOpenCv } from "./cameras/calibrations.js";
-import { readJson } from "./cameras/transforms.js";
+import { readJson, readKitti, readOpenCv } from "./cameras/calibrations.js";
 import { type FileSource, type NamedSource, refusal, sourceOf } from "./source-of.js";
 
 export type { CameraOfImage, FileSource, ImageSize };

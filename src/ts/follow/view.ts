@@ -1,7 +1,7 @@
 import { HprError } from "../base/errors.js";
 import type { Visibility } from "../cloud/visibility.js";
 import { VisibilityMap } from "../cloud/visibility-map.js";
-import { isFarFrom, isNear, type Place } from "../query/place.js";
+import { isFarFrom, isNear, type Place } from "../query/positions.js";
 import type { VisibilityOptions } from "../query/view-options.js";
 import type { Round } from "./follower.js";
 import type { AnswerKind, FollowSettings, Stage } from "./options.js";

@@ -1,7 +1,7 @@
 import { isArray, readArrays } from "./arrays.js";
 import type { CloudFile, Reading } from "./cloud-file.js";
 import { withColors } from "./colors.js";
-import { unpacked } from "./gzip.js";
+import { unpacked } from "./source.js";
 import { FormatProblem } from "./problem.js";
 import { readObj } from "./read-obj.js";
 import { readPcd } from "./pcd.js";

@@ -1,3 +1,4 @@
+// A file of its own: its types name no engine, whose types Node lacks.
 import type { SyncInitInput } from "./compile.js";
 import { engine } from "./own-engine.js";
 import { startSync } from "./start.js";

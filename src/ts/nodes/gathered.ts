@@ -1,7 +1,6 @@
 import type { Points } from "three";
 
-import { asError, HprError } from "../base/errors.js";
-import { allocating, concatenated } from "../base/memory.js";
+import { allocating, asError, concatenated, HprError } from "../base/errors.js";
 import type { Visibility } from "../cloud/visibility.js";
 import type { Round } from "../follow/follower.js";
 import { CameraFilter, type Drawing, type FilterChange } from "../three/camera-filter.js";

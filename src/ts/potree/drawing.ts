@@ -1,6 +1,6 @@
 import type { Camera } from "three";
 
-import { allocating } from "../base/memory.js";
+import { allocating } from "../base/errors.js";
 import { override } from "../base/objects.js";
 import type { VisibilityMap } from "../cloud/visibility-map.js";
 import type { NodesDrawing } from "../nodes/gathered.js";

@@ -1,5 +1,4 @@
-import { describe, HprError } from "../base/errors.js";
-import { allocating } from "../base/memory.js";
+import { allocating, describe, HprError } from "../base/errors.js";
 import { plainView, typedArrayType } from "../base/typed-arrays.js";
 import type { Answers, Query } from "./queries.js";
 import { VIEW_ROWS } from "./option-rows.js";

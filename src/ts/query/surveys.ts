@@ -1,6 +1,5 @@
 import type { Found, Photographed, Query } from "./queries.js";
-import { describe, HprError } from "../base/errors.js";
-import { allocating } from "../base/memory.js";
+import { allocating, describe, HprError } from "../base/errors.js";
 import { isNumberArray, plainNumbers } from "../base/typed-arrays.js";
 import { freeCloud } from "../instance/engine.js";
 import { type Bindings, type Instance, requireInstance } from "../instance/instance.js";

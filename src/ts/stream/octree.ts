@@ -1,5 +1,4 @@
-import { HprError } from "../base/errors.js";
-import { concatenated } from "../base/memory.js";
+import { concatenated, HprError } from "../base/errors.js";
 import { PointCloud } from "../cloud/cloud.js";
 import type { MergeOptions } from "../cloud/merge.js";
 import type { Crs } from "../formats/las/crs.js";

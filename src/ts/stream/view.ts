@@ -1,4 +1,4 @@
-import { concatenated } from "../base/memory.js";
+import { concatenated } from "../base/errors.js";
 import { Horizon } from "../cloud/horizon.js";
 import type { MergeOptions } from "../cloud/merge.js";
 import type { ResolvedInversion } from "../query/view-options.js";

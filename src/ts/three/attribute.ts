@@ -1,7 +1,6 @@
 import type { BufferAttribute, GLBufferAttribute, InterleavedBufferAttribute } from "three";
 
-import { describe, HprError } from "../base/errors.js";
-import { allocating } from "../base/memory.js";
+import { allocating, describe, HprError } from "../base/errors.js";
 import { isFloatArray } from "../query/positions.js";
 import { typedArrayType } from "../base/typed-arrays.js";
 

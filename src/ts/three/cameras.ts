@@ -3,8 +3,7 @@ import type { Camera, Matrix4, Object3D } from "three";
 import { describe, HprError } from "../base/errors.js";
 import { type FollowSettings, REST, type Stage, stagesFor } from "../follow/options.js";
 import { FollowedView } from "../follow/view.js";
-import type { Place } from "../query/place.js";
-import { readViewpoint, type Viewpoint } from "../query/positions.js";
+import { type Place, readViewpoint, type Viewpoint } from "../query/positions.js";
 import type { VisibilityOptions } from "../query/view-options.js";
 
 /** One camera's view of a cloud, and how far its answers have come. */

@@ -1,4 +1,4 @@
-import { allocating } from "../base/memory.js";
+import { allocating } from "../base/errors.js";
 import { PointCloud } from "../cloud/cloud.js";
 import { runningInstance } from "../instance/instance.js";
 import { engine } from "../instance/own-engine.js";

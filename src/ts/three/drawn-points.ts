@@ -1,8 +1,7 @@
 import { BufferAttribute, type BufferGeometry, DynamicDrawUsage, type Points } from "three";
 
-import { describe, HprError } from "../base/errors.js";
+import { allocating, describe, HprError } from "../base/errors.js";
 import type { VisibilityMap } from "../cloud/visibility-map.js";
-import { allocating } from "../base/memory.js";
 import { type PositionAttribute, readPositions, type ReadPositions, requirePositions, versionOf } from "./attribute.js";
 
 /** The state of a geometry before it got a filter. */

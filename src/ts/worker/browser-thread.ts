@@ -1,4 +1,4 @@
-import type { Thread, ThreadEvents } from "./thread.js";
+import type { Thread, ThreadEvents } from "./protocol.js";
 
 /** Where to take the script from; without either, from the package's own file. */
 interface Source {

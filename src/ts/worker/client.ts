@@ -1,10 +1,9 @@
 import type { ChosenRadius, Panorama } from "../query/queries.js";
 import { addDisposeSymbol, addTag } from "../base/objects.js";
-import { HprError } from "../base/errors.js";
+import { allocating, HprError } from "../base/errors.js";
 import { engine } from "../instance/own-engine.js";
 import { initFrom } from "../instance/start.js";
 import { moduleForWorker, ownWasm } from "../own-wasm.js";
-import { allocating } from "../base/memory.js";
 import {
   CLOUD_OPTIONS,
   type CloudSettings,
@@ -18,8 +17,14 @@ import {
   type PointCloudOptions,
   readOptions,
 } from "../query/options.js";
-import type { Place } from "../query/place.js";
-import { isFloatArray, type Positions, readIndices, readPositions, type Viewpoint } from "../query/positions.js";
+import {
+  isFloatArray,
+  type Place,
+  type Positions,
+  readIndices,
+  readPositions,
+  type Viewpoint,
+} from "../query/positions.js";
 import { surveyed, type SurveyName, surveyQuestion, type SurveyQuestion, SURVEYS } from "../query/surveys.js";
 import type { SurfaceKind } from "../query/option-types.js";
 import type { PanoramaOptions } from "../query/option-rows.js";

@@ -1,6 +1,6 @@
 import type { PointCloud } from "../cloud/cloud.js";
 import type { AskedStage, Seen } from "../follow/view.js";
-import type { Place } from "../query/place.js";
+import type { Place } from "../query/positions.js";
 import type { VisibilityOptions } from "../query/view-options.js";
 import { WorkerPointCloud } from "./client.js";
 

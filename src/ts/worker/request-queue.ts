@@ -1,10 +1,9 @@
 import type { Answers, Query, QueryKind } from "../query/queries.js";
 import { asError, HprError } from "../base/errors.js";
 import { abortError, reasonOf, whenAborted } from "./abort.js";
-import { isProgress, READY, type Replies, type Reply, type Request } from "./protocol.js";
+import { type GuestEvents, isProgress, READY, type Replies, type Reply, type Request } from "./protocol.js";
 import { Team } from "./team.js";
 import { startError } from "./start-thread.js";
-import type { GuestEvents } from "./thread.js";
 
 type Kind = Request["kind"];
 

@@ -3,7 +3,7 @@ import { importNodeModule, installedFile } from "../base/node.js";
 import { fileOf } from "../instance/compile.js";
 import { workerSource } from "../instance/configure.js";
 import { startBrowserWorker } from "./browser-thread.js";
-import type { Thread, ThreadEvents } from "./thread.js";
+import type { Thread, ThreadEvents } from "./protocol.js";
 
 const WAY_OUT =
   "Serve worker-thread.js (the package exports it as hidden-point-removal/worker-thread.js) and pass its address to " +

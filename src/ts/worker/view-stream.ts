@@ -12,8 +12,7 @@ import {
 } from "../follow/options.js";
 import { type AskedStage, FollowedView } from "../follow/view.js";
 import { type CloudSize, givenOptions, listener } from "../query/options.js";
-import type { Place } from "../query/place.js";
-import { readViewpoint, type Viewpoint } from "../query/positions.js";
+import { type Place, readViewpoint, type Viewpoint } from "../query/positions.js";
 import { VIEW_OPTIONS, type VisibilityOptions } from "../query/view-options.js";
 
 /** The options of a {@link ViewStream}: those of each view, and how answers follow the viewpoint. */

@@ -5,7 +5,7 @@ import { cameraFromPose } from "../../query/cameras.js";
 import { type CameraOfImage, checked, lensOf, parametersOf, numbersIn, textLines } from "./camera-file.js";
 import { countIn, numberIn } from "../../formats/numbers.js";
 import { wordsOf } from "../../formats/text.js";
-import { allocating } from "../../base/memory.js";
+import { allocating } from "../../base/errors.js";
 import { rowsOf } from "../../query/orient-normals.js";
 import type { SeenBy } from "../../query/surveys.js";
 
