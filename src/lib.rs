@@ -82,9 +82,9 @@ mod wasm;
 
 pub use answers::calibration::{Calibration, Station};
 pub use answers::camera::CameraView;
+pub use answers::camera::{Image, Pixels};
 pub use answers::horizon::Horizon;
 pub use answers::illumination::Lighting;
-pub use answers::image::{Image, Pixels};
 pub use answers::merge::{merge_visible, merge_visible_u64};
 pub use answers::observer::Observer;
 pub use answers::panorama::{Panorama, PanoramaOptions};
@@ -110,11 +110,11 @@ pub use dimensions::{MAX_DIMENSION, PointCloudNd};
 pub use view::camera::Seat;
 pub use view::camera::{Camera, Convention, Pose};
 pub use view::distortion::CameraModel;
-pub use view::guarantees::{permissible_curvature, radius_bound};
 #[doc(hidden)]
 pub use view::options::Given;
 pub use view::options::{Exponential, Inversion, Options, Radius};
 pub use view::radius::ChosenRadius;
+pub use view::radius::{permissible_curvature, radius_bound};
 
 /// The documents' Rust snippets, as documentation tests.
 #[cfg(doctest)]

@@ -14,7 +14,7 @@ use crate::answers::memory::ViewMemory;
 use crate::answers::visibility::Visibility;
 use crate::base::error::Error;
 use crate::cloud::point_cloud::PointCloud;
-use crate::flip::lift::Lift;
+use crate::flip::inversion::Lift;
 use crate::hull;
 use crate::view::options::{Exponential, Inversion, Options, Radius};
 use crate::view::radius::{self, ChosenRadius};

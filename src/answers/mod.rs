@@ -8,7 +8,6 @@ pub(crate) mod denoise;
 pub(crate) mod direction;
 pub(crate) mod horizon;
 pub(crate) mod illumination;
-pub(crate) mod image;
 pub(crate) mod looks;
 pub(crate) mod memory;
 pub(crate) mod merge;

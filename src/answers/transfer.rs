@@ -9,8 +9,7 @@ use alloc::vec::Vec;
 
 use glam::DVec3;
 
-use crate::answers::camera::CameraView;
-use crate::answers::image::{Image, Pixels, Raster};
+use crate::answers::camera::{CameraView, Image, Pixels, Raster};
 use crate::base::allocation::{OutOfMemory, copied, filled, push, reserve, with_capacity};
 use crate::base::error::{Error, in_range};
 use crate::base::sort::{Keyed, ordered, sort_keyed};

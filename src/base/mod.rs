@@ -5,7 +5,6 @@ pub(crate) mod allocation;
 pub(crate) mod beat;
 pub(crate) mod bits;
 pub(crate) mod error;
-pub(crate) mod once;
 #[cfg(test)]
 pub(crate) mod random;
 pub(crate) mod real;

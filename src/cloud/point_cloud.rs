@@ -8,7 +8,7 @@ use core::fmt;
 
 use crate::base::allocation::{OutOfMemory, filled};
 use crate::base::error::Error;
-use crate::base::once::Once;
+use crate::base::threads::Once;
 use crate::cloud::blocks::Blocks;
 use crate::cloud::noise::{Noise, Surface};
 use crate::cloud::points::{Given, Points, Position, checked_len, is_finite};

@@ -15,11 +15,10 @@ use crate::base::error::{Error, in_range};
 use crate::base::real::square_root;
 use crate::cloud::point_cloud::NonFinite;
 use crate::flip::kernel::Kernel;
-use crate::view::choice::RadiusInput;
 use crate::view::options::{Inversion, Options, Radius};
 use crate::view::radius::{self, ChosenRadius};
 use crate::view::refusals::QuestionKind;
-use crate::view::resolved::{check_flip, resolved_inversion, resolved_kernel};
+use crate::view::resolved::{RadiusInput, check_flip, resolved_inversion, resolved_kernel};
 
 /// The largest dimension of a [`PointCloudNd`].
 pub const MAX_DIMENSION: usize = 64;

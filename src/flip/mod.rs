@@ -2,4 +2,3 @@
 
 pub(crate) mod inversion;
 pub(crate) mod kernel;
-pub(crate) mod lift;

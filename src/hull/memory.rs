@@ -8,12 +8,11 @@ use crate::base::allocation::{OutOfMemory, push};
 use crate::base::beat;
 use crate::base::real::one_by_one;
 use crate::flip::inversion::Flip;
-use crate::hull::angular_order::AngularOrder;
 use crate::hull::depth::DepthMap;
 use crate::hull::flipped::Flipped;
 use crate::hull::incremental::Hull;
 use crate::hull::locate::Location;
-use crate::hull::order::{self, LAST_ROUND, points_at};
+use crate::hull::order::{self, AngularOrder, LAST_ROUND, points_at};
 use crate::hull::topology::FaceId;
 
 /// The last view's hull, whose room the next view uses. Its content never changes an answer, as

@@ -10,7 +10,6 @@
 
 pub(crate) mod division;
 
-mod angular_order;
 #[cfg(debug_assertions)]
 mod assertions;
 mod boxes;

@@ -8,10 +8,10 @@ use crate::base::allocation::OutOfMemory;
 use crate::cloud::blocks::Sphere;
 use crate::cloud::points::Points;
 use crate::flip::inversion::Flip;
-use crate::hull::angular_order::AngularOrder;
 use crate::hull::division::Division;
 use crate::hull::flipped::Flipped;
 use crate::hull::memory::Memory;
+use crate::hull::order::AngularOrder;
 use crate::hull::predicates::{Sign, side_of_origin};
 use crate::hull::{flat, order, share};
 

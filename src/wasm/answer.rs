@@ -1,5 +1,5 @@
 //! What JavaScript receives: the answer of a query, or an error. JavaScript puts the numbers into an error's message
-//! (src/ts/instance/failure.ts): to format them here would add 30 kB of wasm.
+//! (src/ts/instance/engine.ts): to format them here would add 30 kB of wasm.
 
 use serde::{Serialize, Serializer};
 use wasm_bindgen::JsValue;

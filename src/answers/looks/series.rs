@@ -14,8 +14,7 @@ use crate::cloud::noise::{Noise, Surface};
 use crate::cloud::point_cloud::{PointCloud, Smooth, Survey};
 use crate::cloud::points::Points;
 use crate::cloud::statistics::Statistics;
-use crate::flip::inversion::Flip;
-use crate::flip::lift::Lift;
+use crate::flip::inversion::{Flip, Lift};
 use crate::hull::{self, Memory, OuterFaces};
 use crate::view::resolved::check_viewpoint;
 

@@ -6,7 +6,7 @@ use glam::DVec3;
 use crate::base::allocation::{OutOfMemory, with_capacity};
 use crate::base::real::larger;
 use crate::base::sort::sort_keyed;
-use crate::hull::division::sector::Sector;
+use crate::hull::division::cone::Sector;
 
 /// A block as it is seen: its direction, and the work that it stands for.
 #[derive(Clone, Copy)]

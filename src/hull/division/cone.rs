@@ -123,6 +123,16 @@ pub(super) fn positive_root(x: f64) -> f64 {
     if x > 0.0 { square_root(x) } else { 0.0 }
 }
 
+// The number of a sector.
+
+/// One of several sectors that a view is divided into, one for each thread. A sector needs nothing from the
+/// others.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Sector {
+    pub number: u32,
+    pub count: u32,
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -13,11 +13,10 @@ mod cell;
 mod cone;
 mod far;
 mod leaf_cache;
-mod sector;
 #[cfg(test)]
 mod tests;
 
-pub(crate) use self::sector::Sector;
+pub(crate) use self::cone::Sector;
 
 use alloc::vec::Vec;
 use glam::DVec3;
