@@ -1,7 +1,7 @@
 import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { expect, test } from "vitest";
-import { readAddress } from "../../www/settings/read-address.js";
+import { readAddress } from "../../www/settings/address.js";
 import { asciiPly, ball } from "./clouds.js";
 import {
   answered,

@@ -1,6 +1,6 @@
 import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
-import { readAddress } from "../../www/settings/read-address.js";
+import { readAddress } from "../../www/settings/address.js";
 import { USUAL_SETTINGS } from "../../www/settings/settings.js";
 import { methodOf } from "../../www/view/inquiry.js";
 import { asciiPly, ball } from "./clouds.js";

@@ -1,7 +1,7 @@
 import { readdirSync, readFileSync } from "node:fs";
 import markdownIt from "markdown-it";
 import type { Plugin } from "vite";
-import { type Files, filesBeside } from "./files-beside.ts";
+import { type Files, filesBeside } from "./examples-plugin.ts";
 
 const root = new URL("../../", import.meta.url);
 const README = "README.md";

@@ -1,5 +1,7 @@
 import type { HtmlTagDescriptor, Plugin, Rolldown, UserConfig } from "vite";
 import { createHash } from "node:crypto";
+import { readFileSync } from "node:fs";
+import ts from "typescript";
 
 /** Options of Vite that the page and the element share. */
 export const COMMON = {
@@ -102,4 +104,18 @@ function hashes(html: string, tag: "script" | "style"): string[] {
   return [...html.matchAll(inline)].map(
     ([, text]) => `'sha256-${createHash("sha256").update(text!).digest("base64")}'`,
   );
+}
+
+/** Writes the types of a source file beside the built files. */
+export function declarations(source: string, fileName: string): Plugin {
+  return {
+    name: "declarations",
+    generateBundle() {
+      const { outputText, diagnostics = [] } = ts.transpileDeclaration(readFileSync(source, "utf8"), {
+        fileName: source,
+      });
+      if (diagnostics.length > 0) this.error(ts.flattenDiagnosticMessageText(diagnostics[0]!.messageText, "\n"));
+      this.emitFile({ type: "asset", fileName, source: outputText });
+    },
+  };
 }

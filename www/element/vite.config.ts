@@ -1,7 +1,6 @@
 import { fileURLToPath } from "node:url";
 import { defineConfig } from "vite";
-import { COMMON } from "../build/page-plugins.ts";
-import { declarations } from "../build/declarations-plugin.ts";
+import { COMMON, declarations } from "../build/page-plugins.ts";
 
 const here = (path: string) => fileURLToPath(new URL(path, import.meta.url));
 const NAME = "hidden-point-cloud";

@@ -7,8 +7,7 @@ import { forgetAhead } from "../loaders/index.ts";
 import { onFile } from "../panel/files.ts";
 import { Panel } from "../panel/panel.ts";
 import { sampleNamed } from "../samples/samples.ts";
-import { Address, type CameraPlace } from "../settings/address.ts";
-import type { Wishes } from "../settings/read-address.ts";
+import { Address, type CameraPlace, type Wishes } from "../settings/address.ts";
 import { Store, USUAL_SETTINGS } from "../settings/settings.ts";
 import type { StoryName } from "../settings/table.ts";
 import type { ExportActions } from "../tools/export.ts";
@@ -16,11 +15,10 @@ import { Workshop } from "../tools/workshop.ts";
 import type { AskedView } from "../view/framing.ts";
 import { canDraw } from "../view/theme.ts";
 import { Viewer } from "../view/viewer.ts";
-import { Introduction } from "./introduction.ts";
+import { Introduction, Storytelling } from "./storytelling.ts";
 import { Notices, sentenceOf } from "./notices.ts";
 import { fromFiles, limitsOf, type Source } from "./sources.ts";
 import { Status } from "./status.ts";
-import { Storytelling } from "./storytelling.ts";
 
 /** Makes the parts of the page, and opens the first cloud in them. Without WebGL 2, says so. Resolves when it is open. */
 export async function startSession(wishes: Wishes, first: Source): Promise<void> {

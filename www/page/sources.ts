@@ -1,8 +1,7 @@
 import type { Wish } from "../open/open-cloud.ts";
 import { type FileOptions, requestForAddress, requestForSample } from "../open/wishes.ts";
 import { type Sample, sampleNamed } from "../samples/samples.ts";
-import type { CloudName } from "../settings/address.ts";
-import type { Wishes } from "../settings/read-address.ts";
+import type { CloudName, Wishes } from "../settings/address.ts";
 import type { AskedView } from "../view/framing.ts";
 
 type Limits = Omit<FileOptions, "skipNonFinite">;

@@ -1,16 +1,74 @@
-import { byId, nextFrame } from "../controls/controls.ts";
+import { byId, eased, isCalm, nextFrame } from "../controls/controls.ts";
 import { SAMPLES } from "../samples/samples.ts";
-import type { Address } from "../settings/address.ts";
-import { readAddress } from "../settings/read-address.ts";
+import { type Address, readAddress } from "../settings/address.ts";
 import { type Store, USUAL_SETTINGS } from "../settings/settings.ts";
 import { STORIES, type StoryName } from "../settings/table.ts";
-import type { Player } from "../stories/player.ts";
+import type { Player } from "../stories/stories.ts";
 import type { Workshop } from "../tools/workshop.ts";
 import { inLocal } from "../view/framing.ts";
 import type { Viewer } from "../view/viewer.ts";
 import type { Opening } from "./opening.ts";
 import { type Source, sourceOf } from "./sources.ts";
-import { sweep } from "./introduction.ts";
+import { MIDDLE } from "../settings/limits.ts";
+import type { Turning } from "../view/moves.ts";
+
+/** Milliseconds in which the line crosses the picture. */
+const SWEEP = 2600;
+
+/** Moves the line that divides the picture to a place, at once if motion is to be reduced or when `goes` says no. */
+export async function sweep(store: Store, to: number, goes: () => boolean): Promise<void> {
+  const from = store.current.compare ?? to;
+  const begun = performance.now();
+  while (goes() && !isCalm()) {
+    const share = Math.min(1, (performance.now() - begun) / SWEEP);
+    store.change({ compare: from + (to - from) * eased(share) });
+    if (share === 1) return;
+    await nextFrame();
+  }
+  // Whoever has put the line away does not want it back.
+  if (store.current.compare !== null) store.change({ compare: to });
+}
+
+/**
+ * The first sight of the page, for an address that asks for nothing: all points; a line sweeps over them and leaves
+ * the visible ones; the picture turns. It ends when the user touches the page, and the line stays.
+ */
+export class Introduction {
+  readonly #viewer: Viewer;
+  readonly #store: Store;
+  readonly #turning: Turning;
+  readonly #introduces: boolean;
+  #going: boolean;
+
+  /** `introduces`: the address asks for nothing. */
+  constructor(viewer: Viewer, store: Store, turning: Turning, introduces: boolean) {
+    this.#viewer = viewer;
+    this.#store = store;
+    this.#turning = turning;
+    this.#introduces = introduces;
+    // The user may touch the page before this script has come. Old browsers do not tell.
+    const { userActivation } = navigator as Partial<Navigator>;
+    this.#going = introduces && userActivation?.hasBeenActive !== true;
+    if (!introduces) return;
+    store.change({ compare: isCalm() ? MIDDLE : 1 });
+    for (const touch of ["pointerdown", "wheel", "keydown", "click"]) {
+      document.addEventListener(touch, () => (this.#going = false), { once: true, capture: true, passive: true });
+    }
+  }
+
+  /** Whether the page still shows what it showed by itself. Then the address says nothing of it. */
+  get going(): boolean {
+    return this.#going;
+  }
+
+  /** Begins when the first answer is drawn, and the line is there. */
+  async begin(turns: boolean): Promise<void> {
+    while (!this.#viewer.isFinal) await nextFrame();
+    if (turns && (this.#going || !this.#introduces)) this.#turning.begin();
+    // After an early touch the line is in the middle at once: where it stood before, all points are shown.
+    if (this.#introduces && this.#store.current.compare === 1) await sweep(this.#store, MIDDLE, () => this.going);
+  }
+}
 
 const SAMPLE_NAMES = SAMPLES.map(({ name }) => name);
 /** Milliseconds in which the camera flies to the next step. */
@@ -60,7 +118,10 @@ export class Storytelling {
   }
 
   async tell(name: StoryName): Promise<void> {
-    const [{ Player }, { TOLD }] = await Promise.all([import("../stories/player.ts"), import("../stories/stories.ts")]);
+    const [{ Player }, { TOLD }] = await Promise.all([
+      import("../stories/stories.ts"),
+      import("../stories/stories.ts"),
+    ]);
     const { opening, viewer, store, address } = this.#parts;
     this.#player?.end();
     const { source } = opening;
