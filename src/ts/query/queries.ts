@@ -3,11 +3,11 @@ import type { ResolvedInversion, SurfaceKind } from "./option-types.js";
 import type { ViewSettings } from "./view-options.js";
 
 /**
- * The questions to a cloud, by kind. Their arguments are read, copied and checked for type. Their
+ * The questions to a cloud, by kind, and their answers. The arguments are read, copied and checked for type. Their
  * points have the core's number of coordinates (see `coreDimension`).
  */
 export interface Questions {
-  visibleFrom: { viewpoint: number[]; settings: ViewSettings };
+  visibleFrom: { viewpoint: number[]; settings: ViewSettings; answer: Found };
   visibilityMap: {
     viewpoint: [number, number, number];
     settings: ViewSettings;
@@ -15,24 +15,44 @@ export interface Questions {
     map: Float64Array<ArrayBuffer>;
     /** The camera of `towards`, of which the core makes the cone. */
     camera?: CameraNumbers | undefined;
+    answer: {
+      data: Float32Array<ArrayBuffer>;
+      viewpoint: [number, number, number];
+      center: [number, number, number];
+      origin: [number, number, number];
+      numbers: [number, number, number, number];
+    };
   };
-  panorama: { viewpoint: number[]; settings: ViewSettings; width: number; height: number; up: number[] };
-  visibleFromDirection: { direction: number[]; settings: ViewSettings };
+  panorama: {
+    viewpoint: number[];
+    settings: ViewSettings;
+    width: number;
+    height: number;
+    up: number[];
+    answer: Panorama & { ranges: Float32Array<ArrayBuffer>; indices: Uint32Array<ArrayBuffer> };
+  };
+  visibleFromDirection: { direction: number[]; settings: ViewSettings; answer: Found };
   /** Asks for points visible from at least `k` of the viewpoints. These are stored one after another. */
-  visibleFromSeveral: { viewpoints: Float64Array<ArrayBuffer>; k: number; settings: ViewSettings };
+  visibleFromSeveral: { viewpoints: Float64Array<ArrayBuffer>; k: number; settings: ViewSettings; answer: Found };
   /** The same, where some seats are cameras. */
-  visibleFromSeats: { seats: Seat[]; k: number; settings: ViewSettings };
+  visibleFromSeats: { seats: Seat[]; k: number; settings: ViewSettings; answer: Found };
   /** `camera` as `readCamera` lists it. */
   visibleFromCamera: {
     camera: Float64Array<ArrayBuffer>;
     settings: ViewSettings;
     /** Whether the answer has `towards`. */
     towards?: boolean;
+    answer: Photographed;
   };
-  /** `positions` have the core's number of coordinates. */
-  sees: { viewpoint: number[]; positions: Float64Array; settings: ViewSettings };
-  autoRadius: { viewpoint: number[]; settings: ViewSettings };
-  noise: object;
+  /** `positions` have the core's number of coordinates. The answer has one byte for each position. */
+  sees: {
+    viewpoint: number[];
+    positions: Float64Array;
+    settings: ViewSettings;
+    answer: { seen: Uint8Array<ArrayBuffer> };
+  };
+  autoRadius: { viewpoint: number[]; settings: ViewSettings; answer: ChosenRadius };
+  noise: { answer: { noise: number } };
   /** The stations: the viewpoint of each, the indices of all of them, and where those of each end. */
   calibrate: {
     viewpoints: Float64Array<ArrayBuffer>;
@@ -41,21 +61,30 @@ export interface Questions {
     /** The lengths of the masks that stations were given by. */
     masks: (number | undefined)[];
     settings: ViewSettings;
+    answer: { thickness: number; recall: number[]; shown: number; isLow: boolean };
   };
-  surface: object;
-  reconstruct: { viewpoint: number[]; settings: ViewSettings; maxEdge: number | undefined };
+  surface: { answer: { surface: SurfaceKind } };
+  reconstruct: {
+    viewpoint: number[];
+    settings: ViewSettings;
+    maxEdge: number | undefined;
+    answer: Found & { triangles: Uint32Array<ArrayBuffer> };
+  };
   illuminate: {
     lights: Float64Array<ArrayBuffer>;
     settings: ViewSettings;
     triangles: Uint32Array<ArrayBuffer> | undefined;
     smoothing: number;
     ambient: number;
+    answer: { brightness: Float32Array<ArrayBuffer> };
   };
 }
 
 export type QueryKind = keyof Questions;
 /** `argument`: which of several viewpoints or cameras it is about, for errors. */
-export type Query<K extends QueryKind = QueryKind> = { [P in K]: { kind: P; argument?: string } & Questions[P] }[K];
+export type Query<K extends QueryKind = QueryKind> = {
+  [P in K]: { kind: P; argument?: string } & Omit<Questions[P], "answer">;
+}[K];
 
 /** How a radius was chosen. */
 export interface ChosenRadius {
@@ -92,34 +121,7 @@ export interface Photographed extends Found {
 }
 
 /** The answers, by kind of query. */
-export interface Answers {
-  visibleFrom: Found;
-  visibleFromDirection: Found;
-  visibleFromSeveral: Found;
-  visibleFromSeats: Found;
-  visibleFromCamera: Photographed;
-  /** One byte for each position. */
-  sees: { seen: Uint8Array<ArrayBuffer> };
-  autoRadius: ChosenRadius;
-  noise: { noise: number };
-  calibrate: { thickness: number; recall: number[]; shown: number; isLow: boolean };
-  surface: { surface: SurfaceKind };
-  visibilityMap: {
-    data: Float32Array<ArrayBuffer>;
-    viewpoint: [number, number, number];
-    center: [number, number, number];
-    origin: [number, number, number];
-    numbers: [number, number, number, number];
-  };
-  panorama: {
-    ranges: Float32Array<ArrayBuffer>;
-    indices: Uint32Array<ArrayBuffer>;
-    skyViewFactor: number;
-    solidAngle: number;
-  };
-  reconstruct: Found & { triangles: Uint32Array<ArrayBuffer> };
-  illuminate: { brightness: Float32Array<ArrayBuffer> };
-}
+export type Answers = { [K in QueryKind]: Questions[K]["answer"] };
 
 /** What stands in each direction around a viewpoint, row after row from up to down. */
 export interface Panorama {
