@@ -50,7 +50,7 @@ export interface Check extends Job {
   /** A check without a part runs only if a chosen check needs it. */
   part: Part | undefined;
   /** The folder of target/ that cargo locks. Two cargo commands with the same folder would wait for each other. */
-  locks?: "debug" | "fuzz" | "wasm";
+  locks?: "debug" | "fuzz";
   run: () => Promise<Outcome>;
 }
 
@@ -140,7 +140,7 @@ export const BUILD = "Build: WebAssembly, npm package, demo page";
 export const groundwork: Check[] = [
   step(SETUP, setUpForChecks),
   step(WASM_PACK, setUpWasmPack, { needs: [SETUP] }),
-  step(BUILD, build, { needs: [WASM_PACK], locks: "wasm" }),
+  step(BUILD, build, { needs: [WASM_PACK] }),
 ];
 
 function step(title: string, work: () => Promise<void>, more: Partial<Check> = {}): Check {
