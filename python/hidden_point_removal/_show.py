@@ -101,7 +101,8 @@ def _widget(positions: NDArray[Any], colors: NDArray[Any], element: str, up: str
     except ImportError as missing:
         raise ImportError(f"{missing}; install hidden-point-removal[show]") from missing
 
-    class Picture(anywidget.AnyWidget):
+    # Where anywidget is not installed, its types are unknown.
+    class Picture(anywidget.AnyWidget):  # type: ignore[misc, unused-ignore]
         _esm = SCRIPT
         element = traitlets.Unicode().tag(sync=True)
         up = traitlets.Unicode().tag(sync=True)

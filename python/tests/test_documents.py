@@ -29,15 +29,11 @@ def test_the_example_prints_the_lines_in_its_comments():
     assert printed.splitlines() == re.findall(r"# → (.*)", example.read_text())
 
 
-@pytest.mark.parametrize("document", ["python/README.md", "docs/PYTHON.md", "docs/SCALE.md", None])
-def test_the_types_of_the_examples_and_of_the_package_are_right(document, tmp_path):
+def test_the_types_of_the_examples_and_of_the_package_are_right(tmp_path):
     pytest.importorskip("mypy", reason="mypy is not installed")
-    checked = tmp_path / "example.py"
-    if document is None:
-        checked = ROOT / "python" / "hidden_point_removal"
-    else:
-        checked.write_text("\n".join(examples(document)))
-    words = ["mypy", "--strict", "--ignore-missing-imports", str(checked)]
+    for document in ("python/README.md", "docs/PYTHON.md", "docs/SCALE.md"):
+        (tmp_path / f"{Path(document).stem.lower()}.py").write_text("\n".join(examples(document)))
+    words = ["mypy", "--strict", "--ignore-missing-imports", str(ROOT / "python" / "hidden_point_removal"), *map(str, tmp_path.glob("*.py"))]
     done = subprocess.run([sys.executable, "-m", *words], capture_output=True, text=True, cwd=tmp_path)
     assert done.returncode == 0, done.stdout
 

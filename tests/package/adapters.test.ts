@@ -254,28 +254,28 @@ describe.each(ADAPTERS.map((adapter) => [adapter.name, adapter] as const))("%s",
       expect(started.length).toBe(2);
       expect(all.flatMap(({ errors }) => errors)).toEqual([]);
     });
+  });
 
-    having("refusal").each<[options: object, words: string]>([
-      [{ stale: "draft" }, "stale must be"],
-      [{ settle: { looks: 5 } }, "settle: looks"],
-      [{ settle: { stale: "all" } }, "settle: unknown option"],
-      [{ exponents: 2 }, "unknown option"],
-      [{ exponent: "2" }, "exponent"],
-      [{ radius: "nearest" }, "radius"],
-      [{ settle: 1 }, "settle"],
-      [{ mode: "fade" }, "mode"],
-      [{ mode: "dim", dimMaterial: {} }, "dimMaterial"],
-      [{ worker: 1 }, "worker"],
-      [{ nonFinite: "keep" }, "nonFinite"],
-      [{ radius: 5, exponent: 2 }, "exclude"],
-      [{ moveThreshold: 1 }, "unknown option"],
-      [{ thickness: 0.1, exponent: 2 }, "thickness"],
-      [{ surface: "rough" }, "surface"],
-      [{ looks: 3, scores: true }, "scores"],
-    ])("refuses %o", async (options, words) => {
-      const problem = await problemOf(() => page(options));
-      expect(problem).toMatchObject({ code: "option", message: expect.stringContaining(words) as string });
-    });
+  having("refusal").each<[options: object, words: string]>([
+    [{ stale: "draft" }, "stale must be"],
+    [{ settle: { looks: 5 } }, "settle: looks"],
+    [{ settle: { stale: "all" } }, "settle: unknown option"],
+    [{ exponents: 2 }, "unknown option"],
+    [{ exponent: "2" }, "exponent"],
+    [{ radius: "nearest" }, "radius"],
+    [{ settle: 1 }, "settle"],
+    [{ mode: "fade" }, "mode"],
+    [{ mode: "dim", dimMaterial: {} }, "dimMaterial"],
+    [{ worker: 1 }, "worker"],
+    [{ nonFinite: "keep" }, "nonFinite"],
+    [{ radius: 5, exponent: 2 }, "exclude"],
+    [{ moveThreshold: 1 }, "unknown option"],
+    [{ thickness: 0.1, exponent: 2 }, "thickness"],
+    [{ surface: "rough" }, "surface"],
+    [{ looks: 3, scores: true }, "scores"],
+  ])("refuses %o", async (options, words) => {
+    const problem = await problemOf(() => pageWith(adapter, [bumpySphere(1, COUNT)], options));
+    expect(problem).toMatchObject({ code: "option", message: expect.stringContaining(words) as string });
   });
 
   having("refusal")("reports an error that nobody listens to as an unhandled rejection", async () => {

@@ -3,26 +3,25 @@ import { setFlagsFromString } from "node:v8";
 import { describe, expect, it } from "vitest";
 
 import { cappedWasm } from "./capped-wasm";
-import { bumpySphere, freshPackage, readyPackage } from "./support";
+import type { VisibilityOptions } from "hidden-point-removal";
+
+import { bumpySphere, freshPackage, randomNumbers, readyPackage } from "./support";
 
 const { PointCloud, hiddenPointRemoval } = await readyPackage();
 
 const sphere = bumpySphere(1, 2000);
-const viewpoints = [
-  [0, 0, 5],
-  [3, -2, 1],
-  [0.1, 0.2, -0.1],
-  [-40, 7, 1000],
-];
+/** The largest distance of a point from 0, 0, 5. */
+const farthestFrom = (positions: Float32Array) =>
+  Math.max(
+    ...Array.from(positions, (x, i) => (i % 3 > 0 ? 0 : Math.hypot(x, positions[i + 1]!, positions[i + 2]! - 5))),
+  );
 
 describe("an answer", () => {
   const cloud = new PointCloud(sphere);
   const visible = cloud.visibleFrom([0, 0, 5]);
 
   it("says how the points were flipped", () => {
-    const farthest = Math.max(
-      ...Array.from({ length: 2000 }, (_, i) => Math.hypot(sphere[3 * i]!, sphere[3 * i + 1]!, sphere[3 * i + 2]! - 5)),
-    );
+    const farthest = farthestFrom(sphere);
     expect(visible.inversion).toBe("spherical");
     expect(visible.evaluations).toBe(0);
     expect(visible.radius).toBeGreaterThanOrEqual(farthest);
@@ -62,15 +61,14 @@ describe("an answer", () => {
     expect(kept.mask().reduce((sum, byte) => sum + byte, 0)).toBe(before.length);
   });
 
-  it("is the same in one call", () => {
-    for (const viewpoint of viewpoints) {
-      const once = hiddenPointRemoval(sphere, viewpoint, { exponent: 2 });
-      expect(once).toEqual(cloud.visibleFrom(viewpoint, { exponent: 2 }));
-      expect(once.mask()).toEqual(cloud.visibleFrom(viewpoint, { exponent: 2 }).mask());
-    }
-    expect(hiddenPointRemoval([1, 2, NaN, 0, 0, 1], [0, 0, 5], { nonFinite: "skip" }).indices).toEqual(
-      Uint32Array.of(1),
-    );
+  it("stays as it is when its cloud changes", () => {
+    const cloud = new PointCloud(sphere);
+    const before = cloud.visibleFrom([0, 0, 5]);
+    const copy = [...before.indices];
+    cloud.append(sphere);
+    cloud.remove(before.indices);
+    expect([...before.indices]).toEqual(copy);
+    expect(before.mask()).toHaveLength(2000);
   });
 
   it("is empty for an empty cloud", () => {
@@ -79,6 +77,9 @@ describe("an answer", () => {
       expect(none.length).toBe(0);
       expect(none.visibleFrom([0, 0, 5])).toMatchObject({ count: 0, radius: 0, exponent: 0 });
       expect(none.visibleFrom([0, 0, 5]).mask()).toHaveLength(0);
+      for (const rule of ["auto", "opposite"] as const) {
+        expect(none.autoRadius([0, 0, 5], rule)).toEqual({ radius: 0, exponent: 0, evaluations: 0 });
+      }
     }
   });
 });
@@ -101,12 +102,35 @@ describe("positions", () => {
   });
 });
 
+describe("an inversion", () => {
+  const cloud = new PointCloud(sphere);
+  const farAway = [0, 0, 5];
+
+  it("by a power tells itself and its unit, which fixes the rounding only", () => {
+    const visible = cloud.visibleFrom(farAway, { inversion: { power: 2.5 } });
+    expect(visible).toMatchObject({ inversion: { power: 2.5 }, exponent: 0, evaluations: 0 });
+    expect(visible.radius).toBeCloseTo(farthestFrom(sphere), 12);
+    const scaled = cloud.visibleFrom(farAway, { radius: 64 * visible.radius, inversion: { power: 2.5 } });
+    expect(scaled.radius).toBe(64 * visible.radius);
+    expect(scaled.indices).toEqual(visible.indices);
+  });
+
+  it("by an exponential tells its scale, which is 0.07 spacings by itself", () => {
+    const visible = cloud.visibleFrom(farAway, { inversion: { exponential: "auto" } });
+    expect(visible).toMatchObject({ radius: 0, exponent: 0, evaluations: 0 });
+    const { exponential } = visible.inversion as { exponential: number };
+    expect(exponential).toBe(0.07 * cloud.spacing);
+    expect(cloud.visibleFrom([0.1, -3, 1], { inversion: { exponential: "auto" } }).inversion).toEqual({ exponential });
+    const given = cloud.visibleFrom(farAway, { inversion: { exponential } });
+    expect(given).toEqual(visible);
+  });
+});
+
 describe("the spacing", () => {
-  it("is the one that the automatic scale is a part of", () => {
-    const cloud = new PointCloud([...sphere, ...sphere, NaN, 0, 0], { nonFinite: "skip" });
-    const { inversion } = cloud.visibleFrom([0, 0, 5], { inversion: { exponential: "auto" } });
-    expect(inversion).toEqual({ exponential: 0.07 * cloud.spacing });
-    expect(new PointCloud(sphere).spacing).toBe(cloud.spacing);
+  it("does not count points twice", () => {
+    expect(new PointCloud([...sphere, ...sphere, NaN, 0, 0], { nonFinite: "skip" }).spacing).toBe(
+      new PointCloud(sphere).spacing,
+    );
     expect([new PointCloud([]).spacing, new PointCloud([1, 2, 3, 1, 2, 3]).spacing]).toEqual([0, 0]);
   });
 });
@@ -132,4 +156,109 @@ describe("memory", () => {
     };
     expect(fill).toThrow(expect.objectContaining({ code: "too-large" }));
   });
+});
+
+describe("sees", () => {
+  const positions = bumpySphere(5, 1500);
+  const from = [0.3, 0.8, 2.5];
+  const random = randomNumbers(3);
+  /** Some in front of the surface, some behind it, some points of the cloud, and the viewpoint. */
+  const places = Float64Array.from({ length: 120 }, (_, i) =>
+    i < 30 ? positions[3 * 7 + i]! : i < 33 ? from[i - 30]! : 2.4 * random() - 1.2,
+  );
+
+  /** The answer of a cloud with the point more, with the radius and the inversion of the view without it. */
+  function byDefinition(options: VisibilityOptions): number[] {
+    const { radius, inversion } = hiddenPointRemoval(positions, from, options);
+    const numbers = inversion === "spherical" ? { exponent: undefined, radius } : { inversion };
+    const same = options.looks === undefined ? { ...options, ...numbers } : options;
+    return Array.from({ length: places.length / 3 }, (_, i) => {
+      const place = places.subarray(3 * i, 3 * i + 3);
+      const isBeyond = inversion === "spherical" && Math.hypot(...place.map((x, axis) => x - from[axis]!)) > radius;
+      return isBeyond
+        ? 0
+        : hiddenPointRemoval([...positions, ...place], from, same)
+            .mask()
+            .at(-1)!;
+    });
+  }
+
+  const choices = [{}, { radius: 8 }, { looks: 2 as const }, { within: { distance: 2.2 } }];
+
+  it("the answer is that of a cloud with the one point more and the same radius", () => {
+    const cloud = new PointCloud(positions);
+    for (const options of choices) {
+      const seen = cloud.sees(from, places, options);
+      expect(seen).toBeInstanceOf(Uint8Array);
+      expect(Array.from(seen)).toEqual(byDefinition(options));
+    }
+    expect(cloud.length).toBe(1500);
+    expect(cloud.sees(from, [])).toEqual(new Uint8Array(0));
+    cloud.dispose();
+  });
+});
+
+describe("a cloud in the plane", () => {
+  it("is a cloud in space with z = 0, to the bit", () => {
+    const random = randomNumbers(4);
+    const flat = Float32Array.from({ length: 600 }, () => random());
+    const lifted = Float32Array.from({ length: 900 }, (_, i) =>
+      i % 3 === 2 ? 0 : flat[2 * Math.floor(i / 3) + (i % 3)]!,
+    );
+    const [plane, space] = [new PointCloud(flat, { dimension: 2 }), new PointCloud(lifted)];
+    const from = [0.5, 2];
+    for (const options of [
+      {},
+      { radius: "opposite" },
+      { inversion: { power: 2 } },
+      { inversion: { exponential: "auto" } },
+    ] as const) {
+      expect(plane.visibleFrom(from, options)).toEqual(space.visibleFrom([...from, 0], options));
+    }
+    const [several, lifts] = [
+      [from, [3, 0]],
+      [
+        [0.5, 2, 0],
+        [3, 0, 0],
+      ],
+    ];
+    expect(plane.visibleFromAny(several)).toEqual(space.visibleFromAny(lifts));
+    expect(plane.visibleFromAtLeast(2, several)).toEqual(space.visibleFromAtLeast(2, lifts));
+    expect(plane.autoRadius(from, "opposite")).toEqual(space.autoRadius([...from, 0], "opposite"));
+    expect(hiddenPointRemoval(flat, from, { dimension: 2 })).toEqual(plane.visibleFrom(from));
+  });
+});
+
+const SKY = 2 ** 32 - 1;
+
+/** Points on a hemisphere of radius 5 above the origin. */
+function dome(count: number): Float32Array {
+  const random = randomNumbers(1);
+  const points = Array.from({ length: count }, () => {
+    const [z, turn] = [random(), 2 * Math.PI * random()];
+    const across = 5 * Math.sqrt(1 - z * z);
+    return [across * Math.cos(turn), across * Math.sin(turn), 5 * z];
+  });
+  return Float32Array.from(points.flat());
+}
+
+it("a panorama gives ranges, points and areas of a dome", () => {
+  const positions = dome(10_000);
+  const { ranges, indices, skyViewFactor, solidAngle } = new PointCloud(positions).panorama([0, 0, 0], {
+    width: 128,
+    height: 64,
+  });
+  expect([ranges.length, indices.length]).toEqual([128 * 64, 128 * 64]);
+  expect(Math.abs(solidAngle / (2 * Math.PI) - 1)).toBeLessThan(0.01);
+  expect(skyViewFactor).toBeLessThan(0.001);
+  const isRight = (range: number, pixel: number) => {
+    const isSky = indices[pixel] === SKY;
+    const isDome = pixel < 128 * 30 && Math.abs(range - 5) < 0.05;
+    return (range === Infinity) === isSky && (isDome || (pixel >= 128 * 30 && (isSky || pixel < 128 * 32)));
+  };
+  expect([...ranges].filter((range, pixel) => !isRight(range, pixel))).toEqual([]);
+  // Column 0 looks along +x, a quarter of the width later it is +y.
+  const [x, y] = [0, 32].map((column) => indices[20 * 128 + column]!);
+  expect(positions[3 * x!]! / 5).toBeGreaterThan(0.7);
+  expect(positions[3 * y! + 1]! / 5).toBeGreaterThan(0.7);
 });

@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 
-import { bumpySphere, freshPackage, pointsAt, readyPackage } from "./support";
+import { bumpySphere, pointsAt, readyPackage } from "./support";
 
 const { Horizon, HprError, mergeVisible, PointCloud } = await readyPackage();
 
@@ -53,11 +53,5 @@ describe("a horizon", () => {
     horizon.dispose();
     expect(codeOf(() => horizon.add(sphere))).toBe("disposed");
     expect(codeOf(() => horizon.hidesBox([0, 0, 0], [1, 1, 1]))).toBe("disposed");
-  });
-
-  it("asks for init first", async () => {
-    const fresh = await freshPackage();
-    expect(() => new fresh.Horizon(viewpoint, options)).toThrow(/init/);
-    expect(() => new Horizon(viewpoint, { radius: 0 })).toThrow(HprError);
   });
 });

@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 
-import { expectRefusal, freshPackage, problemOf, readyPackage } from "./support";
+import { expectRefusal, problemOf, readyPackage } from "./support";
 
 const { mergeVisible, HprError } = await readyPackage();
 
@@ -82,10 +82,5 @@ describe("refusals", () => {
     const problem = await problemOf(() => mergeVisible([{ positions: [0, 0, 1, 2], ids }], farAway, radius));
     expect(problem.cause).toBeInstanceOf(HprError);
     expect(problem.message).toBe(`parts[0]: ${(problem.cause as Error).message}`);
-  });
-
-  it("not-initialised, before init() has resolved", async () => {
-    const fresh = await freshPackage();
-    expect((await problemOf(() => fresh.mergeVisible([part], farAway, radius))).code).toBe("not-initialised");
   });
 });

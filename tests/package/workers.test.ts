@@ -69,3 +69,22 @@ describe("several workers", () => {
     expect((await next.visibleFrom(farAway)).indices).toEqual(new PointCloud(sphere).visibleFrom(farAway).indices);
   });
 });
+
+it("a survey can be given up, and a refusal ends it", async () => {
+  const remote = await WorkerPointCloud.create(sphere, { workers: 2 });
+  const controller = new AbortController();
+  let heard = 0;
+  const onProgress = () => {
+    heard += 1;
+    if (heard === 3) controller.abort();
+  };
+  const many = Array.from({ length: 300 }, (_, i) => [3, i / 100, 0]);
+  await expect(remote.coverage(many, { signal: controller.signal, onProgress })).rejects.toMatchObject({
+    name: "AbortError",
+  });
+  const refused = remote.coverage([farAway, [1e9, 0, 0]], { radius: 8 });
+  await expect(refused).rejects.toMatchObject({ code: "radius" });
+  expect((await remote.coverage([farAway])).length).toBe(3000);
+  expect(heard).toBeLessThan(20);
+  await remote.dispose();
+});
