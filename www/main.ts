@@ -7,11 +7,11 @@ import { SAMPLES } from "./samples/samples.ts";
 import { readAddress } from "./settings/address.ts";
 
 // The first cloud and the WebAssembly are fetched beside the part of the page that draws, which is larger than both.
-const wishes = readAddress(
+const asked = readAddress(
   location.search,
   SAMPLES.map((sample) => sample.name),
 );
-const first = sourceOf(wishes, location.search);
+const first = sourceOf(asked, location.search);
 loadAhead(first.request);
 // If that fails, the error is reported when a cloud needs it.
 init().catch(() => undefined);
@@ -22,7 +22,7 @@ bindSheet();
 bindDrawer();
 
 import("./page/session.ts")
-  .then(({ startSession }) => startSession(wishes, first))
+  .then(({ startSession }) => startSession(asked, first))
   .finally(() => {
     keeper.then(
       (cloud) => cloud.dispose(),

@@ -7,7 +7,7 @@ mod answers;
 mod arguments;
 mod cloud;
 mod map;
-mod parts;
+mod merge;
 mod shared;
 mod surveys;
 mod transfer;
@@ -19,9 +19,9 @@ use pyo3::prelude::*;
 fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("HprError", module.py().get_type::<answers::HprError>())?;
     module.add_class::<cloud::PointCloud>()?;
-    module.add_class::<parts::Horizon>()?;
+    module.add_class::<merge::Horizon>()?;
     module.add_class::<map::VisibilityMap>()?;
-    module.add_function(wrap_pyfunction!(parts::merge_visible, module)?)?;
+    module.add_function(wrap_pyfunction!(merge::merge_visible, module)?)?;
     module.add_function(wrap_pyfunction!(map::of_parts, module)?)?;
     module.add_function(wrap_pyfunction!(surveys::lenses, module)?)?;
     Ok(())

@@ -25,7 +25,7 @@ impl VisibilityMap {
 }
 
 /// The viewpoint, the origin, the numbers and the texture of a map.
-type Parts<'py> = ([f64; 3], [f64; 3], [f32; 4], Bound<'py, PyArray1<f32>>);
+type Pickled<'py> = ([f64; 3], [f64; 3], [f32; 4], Bound<'py, PyArray1<f32>>);
 
 /// A map of these parts.
 #[pyfunction]
@@ -45,7 +45,7 @@ pub fn of_parts(
 #[pymethods]
 impl VisibilityMap {
     /// For pickle and copy: what makes the same map again.
-    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Parts<'py>)> {
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Pickled<'py>)> {
         let make = py.import("hidden_point_removal._native")?.getattr("_map")?;
         let map = &self.map;
         let data = map.data().to_pyarray(py);

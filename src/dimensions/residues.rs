@@ -5,7 +5,7 @@
 use alloc::vec::Vec;
 
 use crate::base::allocation::{OutOfMemory, fill, filled};
-use crate::hull::Parts;
+use crate::hull::Decoded;
 
 /// Where the search for primes starts, downward. It is 3 modulo 4, and no number that coordinates
 /// are likely to be multiples of.
@@ -271,8 +271,8 @@ pub(super) fn times_plus(a: u64, b: u64, c: u64, prime: u64) -> u64 {
 }
 
 #[inline(never)]
-fn parts(x: f64) -> Parts {
-    Parts::of(x)
+fn parts(x: f64) -> Decoded {
+    Decoded::of(x)
 }
 
 /// Turns the left half of a matrix of 2·`rank` columns into the identity, modulo `prime`, and

@@ -3,7 +3,7 @@
 
 mod columns;
 mod laz;
-mod parts;
+mod partial_file;
 mod scan;
 
 use std::cell::RefCell;
@@ -12,7 +12,7 @@ use e57::E57Reader;
 
 use columns::columns_of;
 use laz::{Chunk, Laz};
-use parts::Parts;
+use partial_file::PartialFile;
 use scan::{Scan, facts_of};
 #[cfg(target_family = "wasm")]
 use wasm_bindgen as _;
@@ -23,7 +23,7 @@ const REFUSED: i32 = -2;
 
 #[derive(Default)]
 struct Reading {
-    parts: Parts,
+    parts: PartialFile,
     is_open: bool,
     scan: Option<Scan>,
     laz: Option<Laz>,

@@ -3,7 +3,7 @@
 use e57::{E57Reader, PointCloud, PointCloudReaderRaw, RecordDataType};
 
 use crate::columns::{Axes, Column, axes_of, columns_of};
-use crate::parts::Parts;
+use crate::partial_file::PartialFile;
 
 /// A packet has at most 64 kB, and a point may need several of them.
 const AHEAD: u64 = 1 << 20;
@@ -12,9 +12,9 @@ const BATCH: usize = 16_384;
 
 pub struct Scan {
     /// It borrows `file`, and is gone before it.
-    rows: Option<PointCloudReaderRaw<'static, Parts>>,
-    file: *mut E57Reader<Parts>,
-    parts: Parts,
+    rows: Option<PointCloudReaderRaw<'static, PartialFile>>,
+    file: *mut E57Reader<PartialFile>,
+    parts: PartialFile,
     pose: Pose,
     axes: Axes,
     invalid: Option<usize>,
@@ -29,7 +29,7 @@ pub struct Scan {
 }
 
 impl Scan {
-    pub fn new(parts: Parts, index: usize) -> Result<Self, String> {
+    pub fn new(parts: PartialFile, index: usize) -> Result<Self, String> {
         let reader = E57Reader::new(parts.clone()).map_err(|error| error.to_string())?;
         let clouds = reader.pointclouds();
         let cloud = clouds.get(index).ok_or("there is no such scan")?;

@@ -37,7 +37,7 @@ impl ExactSum {
         if x == 0.0 || y == 0.0 || z == 0.0 {
             return;
         }
-        let [x, y, z] = [x, y, z].map(Parts::of);
+        let [x, y, z] = [x, y, z].map(Decoded::of);
         let xy = u128::from(x.significand) * u128::from(y.significand);
         let low = u128::from(xy as u64) * u128::from(z.significand);
         let high = (xy >> LIMB) * u128::from(z.significand) + (low >> LIMB);
@@ -73,13 +73,13 @@ impl ExactSum {
 }
 
 /// A finite f64 as ±significand · 2^(position − 1074).
-pub(crate) struct Parts {
+pub(crate) struct Decoded {
     pub negative: bool,
     pub significand: u64,
     pub position: usize,
 }
 
-impl Parts {
+impl Decoded {
     pub(crate) fn of(x: f64) -> Self {
         const FRACTION: u64 = (1 << 52) - 1;
         let bits = x.to_bits();
@@ -102,7 +102,7 @@ mod tests {
 
     /// A finite f64 as an integer multiple of 2^-1074.
     fn integer(x: f64) -> BigInt {
-        let parts = Parts::of(x);
+        let parts = Decoded::of(x);
         let magnitude = BigInt::from(parts.significand) << parts.position;
         if parts.negative {
             -magnitude

@@ -33,7 +33,7 @@ mod topology;
 pub(crate) use boxes::hides_box;
 pub(crate) use depth::{Window, place};
 #[cfg(feature = "higher")]
-pub(crate) use exact_sum::Parts;
+pub(crate) use exact_sum::Decoded;
 pub(crate) use kept::KeptHull;
 pub(crate) use lower::lower_boundary;
 pub(crate) use memory::Memory;

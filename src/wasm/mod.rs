@@ -14,12 +14,12 @@ mod clouds;
 mod formulas;
 #[cfg(feature = "wasm")]
 mod higher;
+#[cfg(feature = "wasm")]
+mod merge;
 mod operator;
 mod options;
 #[cfg(feature = "wasm")]
 mod outputs;
-#[cfg(feature = "wasm")]
-mod parts;
 #[cfg(feature = "wasm")]
 mod surveys;
 mod transfer;

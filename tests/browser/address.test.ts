@@ -91,10 +91,10 @@ test.for([
     ],
   ],
 ] as const)("?%s: each is refused with a note, and nothing of it is used", ([query, notes]) => {
-  const wishes = readAddress(query, ["bunny"]);
-  for (const note of notes) expect(wishes.notes.join(" ")).toMatch(note);
-  expect(wishes.notes).toHaveLength(notes.length);
-  expect(wishes).toMatchObject({ settings: {}, src: null, view: null, target: null });
+  const asked = readAddress(query, ["bunny"]);
+  for (const note of notes) expect(asked.notes.join(" ")).toMatch(note);
+  expect(asked.notes).toHaveLength(notes.length);
+  expect(asked).toMatchObject({ settings: {}, src: null, view: null, target: null });
 });
 
 test("if the exponent cannot be used and a radius is given, the radius is used, and the message says so", async () => {

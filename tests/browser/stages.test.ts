@@ -31,10 +31,10 @@ test.for([
   ["looks=1", 3, [/number of looks in the address is not 0, 2 or 3, so it is 3/]],
   ["looks=3&exponent=2", 3, [/Looks in the address exclude exponent/]],
 ] as const)("?%s", ([query, looks, notes]) => {
-  const wishes = readAddress(query, ["bunny"]);
-  const settings = { ...USUAL_SETTINGS, ...wishes.settings };
+  const asked = readAddress(query, ["bunny"]);
+  const settings = { ...USUAL_SETTINGS, ...asked.settings };
   expect(settings.looks).toBe(looks);
-  expect(wishes.notes).toEqual(notes.map((note) => expect.stringMatching(note) as string));
+  expect(asked.notes).toEqual(notes.map((note) => expect.stringMatching(note) as string));
   const hasLooks = looks > 0 && !query.includes("exponent");
   expect(methodOf(settings).looks > 0).toBe(hasLooks);
 });

@@ -2,8 +2,8 @@ import type { TimedView } from "../view/inquiry.ts";
 import type { Cloud } from "../cloud/cloud.ts";
 import type { LoadRequest } from "../loaders/index.ts";
 import { Moves } from "../view/moves.ts";
-import { openCloud, type Ready } from "../open/open-cloud.ts";
-import { addressOf, nameOf, requestForAddress, requestForSample, usableColor } from "../open/wishes.ts";
+import { openCloud, type PreparedCloud } from "../open/open-cloud.ts";
+import { addressOf, nameOf, requestForAddress, requestForSample, usableColor } from "../open/requests.ts";
 import { sampleNamed } from "../samples/samples.ts";
 import { type Settings, Store, USUAL_SETTINGS } from "../settings/settings.ts";
 import { inReachOnly } from "../view/framing.ts";
@@ -39,7 +39,7 @@ export class Showing {
   readonly #frame: Frame;
   readonly #tell: Listener;
   #reading: Reading;
-  #ready: Ready | null = null;
+  #ready: PreparedCloud | null = null;
   #loading = new AbortController();
   #note: string | null = null;
   /** Whether the settings are being changed for the attributes. */
@@ -158,7 +158,7 @@ export class Showing {
   }
 
   /** Applies the difference between the attributes before and the attributes now. */
-  #apply(before: Reading, ready: Ready, look: boolean): void {
+  #apply(before: Reading, ready: PreparedCloud, look: boolean): void {
     const reading = this.#reading;
     const changed = changedSettings(before, reading, ready.usual);
     if (changed.color !== undefined) {
@@ -176,7 +176,7 @@ export class Showing {
   }
 
   /** Goes to the view that is asked for. */
-  #look(ready: Ready): void {
+  #look(ready: PreparedCloud): void {
     const { view, notes } = inReachOnly(ready.opened.cloud, this.#reading.view, {}, ASKED);
     for (const note of notes) {
       this.#tell.refused(new Problem("attribute", note, { attribute: view ? "target" : "viewpoint" }));

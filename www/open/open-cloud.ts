@@ -9,10 +9,10 @@ import { Inquiry, isHang } from "../view/inquiry.ts";
 import { CloudPoints } from "../view/points.ts";
 import { THEMES } from "../view/theme.ts";
 import type { Opened } from "../view/viewer.ts";
-import { usableColor, usualLook } from "./wishes.ts";
+import { usableColor, usualLook } from "./requests.ts";
 
 /** A cloud to be opened, and the way in which it is to be shown. */
-export interface Wish {
+export interface CloudRequest {
   request: LoadRequest;
   sample: Sample | null;
   view: AskedView | null;
@@ -37,7 +37,7 @@ export interface Place {
 }
 
 /** A cloud that can be shown, and everything that changes with it. */
-export interface Ready {
+export interface PreparedCloud {
   opened: Opened;
   /** The settings to be set before the cloud is shown. */
   settings: Partial<Settings>;
@@ -49,7 +49,7 @@ export interface Ready {
   homeFrom: (view: AskedView | null, whole?: boolean) => (up: Up) => Home;
   /** The columns of a table that were taken for x, y and z, if other ones may have been meant. */
   columnsAt: readonly number[] | undefined;
-  /** Sentences about wishes that cannot be met. */
+  /** Sentences about requests that cannot be met. */
   refusals: string[];
   /** Sentences that the user has to read about the cloud. */
   notes: string[];
@@ -67,9 +67,9 @@ const hasFewCores = () => navigator.hardwareConcurrency <= 2;
 
 /** Loads a cloud and finds its first answer. Nothing is shown yet, and a failure leaves nothing behind. */
 export async function openCloud(
-  { request, sample, view: wanted, settings: wished }: Wish,
+  { request, sample, view: wanted, settings: wished }: CloudRequest,
   place: Place,
-): Promise<Ready> {
+): Promise<PreparedCloud> {
   const { signal, onProgress } = place;
   // The ending of a file's name tells which way is up.
   const { name } = request.kind === "files" ? request.files[0]! : request;

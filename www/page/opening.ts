@@ -18,7 +18,7 @@ import type { Status } from "./status.ts";
 const UPS: readonly Up[] = ["z", "y", "-y"];
 
 /** The parts of the page that take part when a cloud is opened. */
-export interface Parts {
+export interface PageParts {
   viewer: Viewer;
   store: Store;
   panel: Panel;
@@ -39,7 +39,7 @@ export class Opening {
   onOpen: (source: Source) => void = () => undefined;
   /** The view that was asked for. It stays in the address although it is the first view. */
   askedView: AskedView | null = null;
-  readonly #parts: Parts;
+  readonly #parts: PageParts;
   readonly #usual: Sample;
   readonly #picker: SamplePicker;
   readonly #progress = new Progress(() => this.#stop());
@@ -49,7 +49,7 @@ export class Opening {
   #shown: Source | null = null;
 
   /** `usual`: the sample that replaces a first cloud that cannot be opened. */
-  constructor(parts: Parts, usual: Sample) {
+  constructor(parts: PageParts, usual: Sample) {
     this.#parts = parts;
     this.#usual = usual;
     const turnUp = () => {

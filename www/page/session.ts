@@ -7,7 +7,7 @@ import { forgetAhead } from "../loaders/index.ts";
 import { onFile } from "../panel/files.ts";
 import { Panel } from "../panel/panel.ts";
 import { sampleNamed } from "../samples/samples.ts";
-import { Address, type CameraPlace, type Wishes } from "../settings/address.ts";
+import { Address, type CameraPlace, type AddressParameters } from "../settings/address.ts";
 import { Store, USUAL_SETTINGS } from "../settings/settings.ts";
 import type { StoryName } from "../settings/table.ts";
 import type { ExportActions } from "../tools/export.ts";
@@ -21,7 +21,7 @@ import { fromFiles, limitsOf, type Source } from "./sources.ts";
 import { Status } from "./status.ts";
 
 /** Makes the parts of the page, and opens the first cloud in them. Without WebGL 2, says so. Resolves when it is open. */
-export async function startSession(wishes: Wishes, first: Source): Promise<void> {
+export async function startSession(asked: AddressParameters, first: Source): Promise<void> {
   const status = new Status(byId("status"));
   const message = new Message();
   byId("view").ariaLabel = `Point cloud. ${spokenKeys(["orbit", "pan", "zoom", "pick", "sheet"])}.`;
@@ -32,13 +32,13 @@ export async function startSession(wishes: Wishes, first: Source): Promise<void>
     forgetAhead();
     return;
   }
-  const settings = { ...USUAL_SETTINGS, ...wishes.settings };
+  const settings = { ...USUAL_SETTINGS, ...asked.settings };
   // Places in space belong to a cloud, and are set with the cloud.
   const store = new Store({ ...settings, freeze: null });
   const viewer = new Viewer(byId("view", HTMLCanvasElement), store, false, coveredHeight);
   new ResizeObserver(() => viewer.stage.refit()).observe(byId("verbs"));
   const turning = new Turning(viewer);
-  const introduction = new Introduction(viewer, store, turning, wishes.isFirst);
+  const introduction = new Introduction(viewer, store, turning, asked.isFirst);
   const panel = new Panel(viewer, store, settings, turning);
   const notices = new Notices(status, message);
   const address: Address = new Address(store, {
@@ -53,7 +53,7 @@ export async function startSession(wishes: Wishes, first: Source): Promise<void>
   };
   const workshop: Workshop = new Workshop(viewer, store, actions);
   const parts = { viewer, store, panel, address, workshop, status, message, notices };
-  const opening: Opening = new Opening(parts, sampleNamed(wishes.sample));
+  const opening: Opening = new Opening(parts, sampleNamed(asked.sample));
   const storytelling: Storytelling = new Storytelling({ viewer, store, address, workshop, opening });
   viewer.onFrame = () => workshop.tools?.place();
   viewer.onAttributes = (cloud) => panel.prepare(cloud);
@@ -83,16 +83,16 @@ export async function startSession(wishes: Wishes, first: Source): Promise<void>
   viewer.onError = (error) => notices.refuseView(error);
 
   onFile({
-    open: (files, notes) => void opening.open(fromFiles(files, notes, limitsOf(wishes))),
+    open: (files, notes) => void opening.open(fromFiles(files, notes, limitsOf(asked))),
     refuse: (sentence) => message.show(sentence),
   });
   store.follow(({ surface, thickness, looks }, before) => {
     if (surface !== before.surface || thickness !== before.thickness || looks !== before.looks) opening.say();
   });
   bindLessons(viewer, store, storytelling, message, actions);
-  const opened = wishes.story ? storytelling.tell(wishes.story) : opening.open(first);
+  const opened = asked.story ? storytelling.tell(asked.story) : opening.open(first);
   await opened;
-  if (!wishes.story) void introduction.begin(wishes.turns);
+  if (!asked.story) void introduction.begin(asked.turns);
 }
 
 /** The height at the bottom of the picture that the verbs or the tools cover, in CSS pixels. A corner does not count. */

@@ -1,13 +1,13 @@
-import type { Wish } from "../open/open-cloud.ts";
-import { type FileOptions, requestForAddress, requestForSample } from "../open/wishes.ts";
+import type { CloudRequest } from "../open/open-cloud.ts";
+import { type FileOptions, requestForAddress, requestForSample } from "../open/requests.ts";
 import { type Sample, sampleNamed } from "../samples/samples.ts";
-import type { CloudName, Wishes } from "../settings/address.ts";
+import type { CloudName, AddressParameters } from "../settings/address.ts";
 import type { AskedView } from "../view/framing.ts";
 
 type Limits = Omit<FileOptions, "skipNonFinite">;
 
 /** A cloud that the page opens. */
-export interface Source extends Wish {
+export interface Source extends CloudRequest {
   /** Its name in the address; `null` for a file from this device. */
   name: CloudName | null;
   /** Sentences that the user has to read about it. */
@@ -54,14 +54,14 @@ export function nameOf([first, ...others]: readonly string[]): string {
 }
 
 /** The cloud that an address asks for. */
-export function sourceOf(wishes: Wishes, search: string): Source {
-  const { sample, src, settings, notes } = wishes;
-  const view = wishes.view && { at: wishes.view, target: wishes.target };
-  const source = src === null ? fromSample(sampleNamed(sample), view) : fromAddress(src, view, limitsOf(wishes));
+export function sourceOf(asked: AddressParameters, search: string): Source {
+  const { sample, src, settings, notes } = asked;
+  const view = asked.view && { at: asked.view, target: asked.target };
+  const source = src === null ? fromSample(sampleNamed(sample), view) : fromAddress(src, view, limitsOf(asked));
   return { ...source, settings, notes, marks: search };
 }
 
 /** The largest number of points of a file, as the address asks for it. */
-export function limitsOf({ points }: Wishes): Limits {
+export function limitsOf({ points }: AddressParameters): Limits {
   return points === null ? {} : { limit: points };
 }

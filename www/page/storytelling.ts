@@ -1,13 +1,12 @@
 import { byId, eased, isCalm, nextFrame } from "../controls/controls.ts";
 import { SAMPLES } from "../samples/samples.ts";
-import { type Address, readAddress } from "../settings/address.ts";
+import { readAddress } from "../settings/address.ts";
 import { type Store, USUAL_SETTINGS } from "../settings/settings.ts";
 import { STORIES, type StoryName } from "../settings/table.ts";
 import type { Player } from "../stories/stories.ts";
-import type { Workshop } from "../tools/workshop.ts";
 import { inLocal } from "../view/framing.ts";
 import type { Viewer } from "../view/viewer.ts";
-import type { Opening } from "./opening.ts";
+import type { Opening, PageParts } from "./opening.ts";
 import { type Source, sourceOf } from "./sources.ts";
 import { MIDDLE } from "../settings/limits.ts";
 import type { Turning } from "../view/moves.ts";
@@ -76,26 +75,21 @@ const FLIGHT = 1500;
 /** The field of view of a picture that is higher than wide: else the ends of a tape are out of it. */
 const NARROW = "&fov=96";
 
-interface Parts {
-  viewer: Viewer;
-  store: Store;
-  address: Address;
-  workshop: Workshop;
-  opening: Opening;
-}
+/** The parts of the page that a story uses. */
+type Used = Pick<PageParts, "viewer" | "store" | "address" | "workshop"> & { opening: Opening };
 
 /**
  * Tells stories with the picture and the tools of the page. Their code is downloaded when the first one begins. A story is
  * an entry in the browser's history: its end goes back to the cloud that was open before.
  */
 export class Storytelling {
-  readonly #parts: Parts;
+  readonly #parts: Used;
   #player: Player | null = null;
   #isTelling = false;
   /** What was open before the story. `null`: the page began with the story, or another cloud has been opened. */
   #before: (() => Source) | null = null;
 
-  constructor(parts: Parts) {
+  constructor(parts: Used) {
     this.#parts = parts;
     // Another cloud ends the story.
     parts.opening.onOpen = ({ isTold }) => {
@@ -118,10 +112,7 @@ export class Storytelling {
   }
 
   async tell(name: StoryName): Promise<void> {
-    const [{ Player }, { TOLD }] = await Promise.all([
-      import("../stories/stories.ts"),
-      import("../stories/stories.ts"),
-    ]);
+    const { Player, TOLD } = await import("../stories/stories.ts");
     const { opening, viewer, store, address } = this.#parts;
     this.#player?.end();
     const { source } = opening;
@@ -157,19 +148,19 @@ export class Storytelling {
   async #show(search: string, signal: AbortSignal): Promise<void> {
     const { viewer, store, opening, workshop } = this.#parts;
     const goes = () => !signal.aborted;
-    const wishes = readAddress(search, SAMPLE_NAMES);
-    if (opening.shownName !== wishes.sample || !viewer.cloud) {
-      await opening.open({ ...sourceOf(wishes, search), isTold: true });
+    const asked = readAddress(search, SAMPLE_NAMES);
+    if (opening.shownName !== asked.sample || !viewer.cloud) {
+      await opening.open({ ...sourceOf(asked, search), isTold: true });
       // The page has said why it could not be opened.
-      if (opening.shownName === wishes.sample || !goes()) return;
+      if (opening.shownName === asked.sample || !goes()) return;
       this.#before = null;
       this.#player?.end();
     } else {
       const { theme, compare } = store.current;
-      const to = { ...USUAL_SETTINGS, ...opening.usual, theme, ...wishes.settings };
+      const to = { ...USUAL_SETTINGS, ...opening.usual, theme, ...asked.settings };
       // The line goes to its place after the marks are there.
       store.change({ ...to, compare: to.compare === null || compare === null ? to.compare : compare });
-      const { view, target } = wishes;
+      const { view, target } = asked;
       if (view && target) {
         viewer.navigation.flyTo({ at: inLocal(viewer.cloud, view), target: inLocal(viewer.cloud, target) }, FLIGHT);
       }

@@ -174,7 +174,7 @@ export function readable(address: URL): URL {
 }
 
 /** What the address of the page asks for. The notes name, in plain words, everything that cannot be used. */
-export interface Wishes {
+export interface AddressParameters {
   sample: string;
   src: string | null;
   /** Where the camera stands, in the file's own coordinates, and what it looks at. */
@@ -194,7 +194,7 @@ export interface Wishes {
 }
 
 /** Reads the address. The first sample is the usual one. */
-export function readAddress(search: string, samples: readonly string[]): Wishes {
+export function readAddress(search: string, samples: readonly string[]): AddressParameters {
   const query = new URLSearchParams(search);
   const notes: string[] = [];
 

@@ -20,10 +20,10 @@ import type { CloudPoints } from "./points.ts";
 import type { Cloud } from "../cloud/cloud.ts";
 
 /** The part of a cloud that is looked at. A point outside is neither seen nor hides anything. */
-export type Part = Pick<Settings, "box" | "without">;
+export type Selection = Pick<Settings, "box" | "without">;
 
 /** 1 for each point of other classes than those that are left out. Undefined: all points. */
-export function classMask(cloud: Cloud, { without }: Part): Uint8Array | undefined {
+export function classMask(cloud: Cloud, { without }: Selection): Uint8Array | undefined {
   const column = without && cloud.attributes.find(({ name }) => name === without.column);
   if (!column) return undefined;
   const left = new Set(without.values);
@@ -31,7 +31,7 @@ export function classMask(cloud: Cloud, { without }: Part): Uint8Array | undefin
 }
 
 /** 1 for each point that takes part. Null: all points do. */
-export function partMask(cloud: Cloud, positions: Float32Array | Float64Array, part: Part): Uint8Array | null {
+export function partMask(cloud: Cloud, positions: Float32Array | Float64Array, part: Selection): Uint8Array | null {
   const mask = classMask(cloud, part);
   const { box } = part;
   if (!box) return mask ?? null;
@@ -56,7 +56,7 @@ export interface Method {
   /** Only with looks. Undefined: what the library finds. */
   surface?: Exclude<SurfaceChoice, "auto"> | undefined;
   /** Undefined: all points take part. */
-  part?: Part | undefined;
+  part?: Selection | undefined;
 }
 
 /** The question of what can be seen. */
@@ -206,11 +206,11 @@ export class Inquiry {
   }
 
   /** 1 for each point that takes part. Null: all points do. */
-  maskOf(part: Part): Uint8Array | null {
+  maskOf(part: Selection): Uint8Array | null {
     return this.#masksOf(part).mask;
   }
 
-  #masksOf({ box, without }: Part) {
+  #masksOf({ box, without }: Selection) {
     const text = JSON.stringify([box, without]);
     if (this.#part?.text === text) return this.#part;
     const { cloud } = this.#points;
@@ -218,7 +218,7 @@ export class Inquiry {
     return (this.#part = { text, classes: classMask(cloud, part), mask: partMask(cloud, this.#positions, part) });
   }
 
-  #within(part: Part | undefined): Pick<VisibilityOptions, "within"> {
+  #within(part: Selection | undefined): Pick<VisibilityOptions, "within"> {
     if (!part) return {};
     const { classes: mask } = this.#masksOf(part);
     return { within: { ...(part.box && { box: part.box }), ...(mask && { mask }) } };

@@ -5,7 +5,7 @@ import { crsOf } from "../formats/las/crs.js";
 import { type ChunkLayout, LazDecoder } from "../formats/las/laz.js";
 import type { CompileFiles } from "../formats/wasm.js";
 import type { OctreeSettings } from "./options.js";
-import { broken, type Part, type RangeReader, readPart } from "./source.js";
+import { broken, type ByteRange, type RangeReader, readRange } from "./source.js";
 import { childCell, type NodePoints, type OctreeNode, Tree, triple, type Triple } from "./tree.js";
 
 /** The place of red, green and blue in a point of format 7 or 8. */
@@ -110,7 +110,7 @@ class CopcTree extends Tree {
 
   async read(node: OctreeNode, signal?: AbortSignal): Promise<NodePoints> {
     const { name } = this.facts;
-    const chunk = await readPart(name, this.#read, node.part, signal);
+    const chunk = await readRange(name, this.#read, node.part, signal);
     const module = await this.#wasm();
     this.#decoder ??= new LazDecoder(module, this.#layout);
     const colors = this.#isColored ? new Uint16Array(3 * node.count) : undefined;
@@ -118,9 +118,9 @@ class CopcTree extends Tree {
     return { positions: this.placed(node, integers), colors };
   }
 
-  protected async readPage(top: OctreeNode, page: Part): Promise<void> {
+  protected async readPage(top: OctreeNode, page: ByteRange): Promise<void> {
     const { name } = this.facts;
-    const bytes = await readPart(name, this.#read, page);
+    const bytes = await readRange(name, this.#read, page);
     let listed: Hierarchy.Subtree;
     try {
       const { offset: pageOffset, length: pageLength } = page;
@@ -170,6 +170,6 @@ function keyOf(depth: number, cell: Triple): string {
   return [depth, ...cell].join("-");
 }
 
-function partOf({ pageOffset, pageLength }: Hierarchy.Page): Part {
+function partOf({ pageOffset, pageLength }: Hierarchy.Page): ByteRange {
   return { offset: pageOffset, length: pageLength };
 }

@@ -1,5 +1,5 @@
 import { describe, HprError } from "../base/errors.js";
-import { broken, type Part, type PotreeFiles, type RangeReader, readPart } from "./source.js";
+import { broken, type ByteRange, type PotreeFiles, type RangeReader, readRange } from "./source.js";
 import { childCell, type NodePoints, type OctreeNode, Tree, type TreeFacts, type Triple } from "./tree.js";
 
 /** The bytes of an entry of `hierarchy.bin`. */
@@ -44,7 +44,7 @@ class PotreeTree extends Tree {
   }
 
   async read(node: OctreeNode, signal?: AbortSignal): Promise<NodePoints> {
-    const bytes = await readPart(this.facts.name, this.#octree, node.part, signal);
+    const bytes = await readRange(this.facts.name, this.#octree, node.part, signal);
     const { length, position, colors: colorsAt } = this.#rows;
     const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
     const integers = new Int32Array(3 * node.count);
@@ -57,9 +57,9 @@ class PotreeTree extends Tree {
     return { positions: this.placed(node, integers), colors };
   }
 
-  protected async readPage(top: OctreeNode, page: Part): Promise<void> {
+  protected async readPage(top: OctreeNode, page: ByteRange): Promise<void> {
     const { name } = this.facts;
-    const bytes = await readPart(name, this.#hierarchy, page);
+    const bytes = await readRange(name, this.#hierarchy, page);
     const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
     // Each entry names the children of its node. They follow in this order, level by level.
     const nodes = [top];

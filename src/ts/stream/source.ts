@@ -111,14 +111,14 @@ function parsed(url: string, bytes: Uint8Array): unknown {
 }
 
 /** Reads a range that must be complete. */
-export async function readPart(
+export async function readRange(
   name: string,
   read: RangeReader,
-  { offset, length }: Part,
+  { offset, length }: ByteRange,
   signal?: AbortSignal,
 ): Promise<Uint8Array> {
-  const isPart = Number.isSafeInteger(offset) && Number.isSafeInteger(length) && offset >= 0 && length > 0;
-  if (!isPart || length > LARGEST_PART) {
+  const isRange = Number.isSafeInteger(offset) && Number.isSafeInteger(length) && offset >= 0 && length > 0;
+  if (!isRange || length > LARGEST_RANGE) {
     throw broken(name, `it lists a part of ${length} bytes at byte ${offset}`);
   }
   const bytes = await read(offset, offset + length, signal);
@@ -129,13 +129,13 @@ export async function readPart(
 }
 
 /** A place in a file. */
-export interface Part {
+export interface ByteRange {
   offset: number;
   length: number;
 }
 
 /** Nodes have some 100 kB. */
-const LARGEST_PART = 2 ** 28;
+const LARGEST_RANGE = 2 ** 28;
 
 /** The error of files that contradict themselves. */
 export function broken(name: string, why: string, cause?: unknown): HprError {

@@ -1,5 +1,5 @@
 import type { Crs } from "../formats/las/crs.js";
-import { broken, type Part } from "./source.js";
+import { broken, type ByteRange } from "./source.js";
 
 /** Three numbers: x, y, z. */
 export type Triple = readonly [number, number, number];
@@ -20,10 +20,10 @@ export interface OctreeNode extends Box {
   /** The number of its own points. It is not exact as long as the node is not listed. */
   count: number;
   /** Where its own points are. */
-  part: Part;
+  part: ByteRange;
   children: OctreeNode[];
   /** Where the node and the nodes below it are listed. Undefined if they are listed already. */
-  page: Part | undefined;
+  page: ByteRange | undefined;
   /** The length of this page, also after it was read. 0 if the node is in the page of its parent. */
   pageLength: number;
 }
@@ -89,7 +89,7 @@ export abstract class Tree {
   abstract read(node: OctreeNode, signal?: AbortSignal): Promise<NodePoints>;
 
   /** Reads a page: lists its node and nodes below it. */
-  protected abstract readPage(node: OctreeNode, page: Part): Promise<void>;
+  protected abstract readPage(node: OctreeNode, page: ByteRange): Promise<void>;
 
   /** Lists a node, if it is not listed yet. Several callers may wait for one page. */
   async list(node: OctreeNode): Promise<void> {
@@ -108,7 +108,7 @@ export abstract class Tree {
     await listing;
   }
 
-  async #readPage(node: OctreeNode, page: Part): Promise<void> {
+  async #readPage(node: OctreeNode, page: ByteRange): Promise<void> {
     await this.readPage(node, page);
     this.#pages.add(page.offset);
     this.#unread -= 1;
@@ -146,7 +146,7 @@ export abstract class Tree {
   }
 
   /** Notes that a page of its own lists the node. */
-  protected defer(node: OctreeNode, page: Part): void {
+  protected defer(node: OctreeNode, page: ByteRange): void {
     this.#unread += 1;
     node.page = page;
     node.pageLength = page.length;

@@ -6,7 +6,7 @@ use std::rc::Rc;
 
 /// A file of which some parts are there. Clones share them, and each has a place of its own.
 #[derive(Clone, Default)]
-pub struct Parts {
+pub struct PartialFile {
     shared: Rc<Shared>,
     at: u64,
 }
@@ -14,7 +14,7 @@ pub struct Parts {
 #[derive(Default)]
 struct Shared {
     size: Cell<u64>,
-    parts: RefCell<Vec<Part>>,
+    parts: RefCell<Vec<Piece>>,
     /// Where the last read piece begins and ends, and the end of what is there without a gap.
     from: Cell<u64>,
     to: Cell<u64>,
@@ -22,20 +22,20 @@ struct Shared {
     missing: Cell<Option<u64>>,
 }
 
-struct Part {
+struct Piece {
     from: u64,
     bytes: Vec<u8>,
     /// It is needed again for each scan.
     stays: bool,
 }
 
-impl Part {
+impl Piece {
     fn end(&self) -> u64 {
         self.from + self.bytes.len() as u64
     }
 }
 
-impl Parts {
+impl PartialFile {
     pub fn begin(&self, size: u64) {
         self.shared.size.set(size);
     }
@@ -46,7 +46,7 @@ impl Parts {
         parts.retain(|part| part.stays || part.end() > self.shared.from.get());
         let mut bytes = vec![0; length];
         let place = bytes.as_mut_ptr();
-        parts.push(Part { from, bytes, stays });
+        parts.push(Piece { from, bytes, stays });
         place
     }
 
@@ -99,7 +99,7 @@ impl Parts {
     }
 }
 
-impl Read for Parts {
+impl Read for PartialFile {
     fn read(&mut self, into: &mut [u8]) -> io::Result<usize> {
         if self.at >= self.shared.size.get() || into.is_empty() {
             return Ok(0);
@@ -123,7 +123,7 @@ impl Read for Parts {
     }
 }
 
-impl Seek for Parts {
+impl Seek for PartialFile {
     fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
         let place = match to {
             SeekFrom::Start(place) => Some(place),
