@@ -174,26 +174,6 @@ it("takes any data, a viewpoint and other options", async () => {
   expect(await inPage(({ errors }) => errors.at(-1))).toBe("option");
 });
 
-it("recovers from the death of its worker, during a question or not", async () => {
-  const before = await compared();
-  await inPage(({ killWorker, set }) => {
-    killWorker();
-    set({}, { rotationX: -60, rotationOrbit: 20 });
-  });
-  await reached(({ answers }) => answers.length === 2);
-  const after = await compared();
-  expect(after.visible).toEqual(after.expected);
-  expect(after.visible).not.toEqual(before.visible);
-
-  await inPage(({ killWorkerWhenAsked, set }) => {
-    killWorkerWhenAsked();
-    set({}, { rotationX: 90, rotationOrbit: 0 });
-  });
-  await reached(({ answers }) => answers.length === 3);
-  expect((await compared()).visible).toEqual(before.visible);
-  expect(await inPage(({ errors, workers }) => [errors, workers()])).toEqual([[], 3]);
-});
-
 it("reports when the next worker is lost, too, and stops asking", async () => {
   await inPage(({ killWorkerWhenAsked, set }) => {
     killWorkerWhenAsked(2);

@@ -96,15 +96,6 @@ export const bundlers = (visit: Visit): Consumer[] => [
     },
   },
   {
-    name: "Vite, ./lite, a server that is one bundle",
-    further: true,
-    version: vite.version,
-    run: async () => {
-      const folder = await buildServerWithVite("lite");
-      return answerOf(join(folder, "lite.js"), parse(folder).root);
-    },
-  },
-  {
     name: "Vite, ./inline, a server that is one bundle, without node_modules",
     version: vite.version,
     run: async () => {
@@ -125,17 +116,6 @@ export const bundlers = (visit: Visit): Consumer[] => [
       await buildWithWebpack("built", "auto");
       const pages = { "index.html": html('<script src="main.js"></script>') };
       await using site = await serve(project("webpack", "built"), { pages });
-      return await visit(`${site.address}index.html`);
-    },
-  },
-  {
-    name: "webpack, ./lite, built",
-    further: true,
-    version: webpack.version,
-    run: async () => {
-      await buildWithWebpack("lite", "auto", "lite");
-      const pages = { "index.html": html('<script src="main.js"></script>') };
-      await using site = await serve(project("webpack", "lite"), { pages });
       return await visit(`${site.address}index.html`);
     },
   },
@@ -167,22 +147,6 @@ export const bundlers = (visit: Visit): Consumer[] => [
       });
       const pages = { "index.html": html('<script type="module" src="main.js"></script>') };
       await using site = await serve(project("esbuild", "built"), { pages });
-      return await visit(`${site.address}index.html`);
-    },
-  },
-  {
-    name: "esbuild, ./lite, wasm address given",
-    further: true,
-    version: esbuild.version,
-    glue: [
-      'import wasm from "hidden-point-removal/lite/hpr.wasm";',
-      "init(new URL(wasm, import.meta.url))",
-      "--loader:.wasm=file",
-    ],
-    run: async () => {
-      await buildWithEsbuild({ entryPoints: ["../lite/explicit.js"], format: "esm", outdir: "lite" });
-      const pages = { "index.html": html('<script type="module" src="explicit.js"></script>') };
-      await using site = await serve(project("esbuild", "lite"), { pages });
       return await visit(`${site.address}index.html`);
     },
   },
@@ -259,10 +223,10 @@ function answerOf(script: string, cwd: string): Answered {
   return JSON.parse(execFileSync(process.execPath, [script], { cwd, encoding: "utf8" })) as Answered;
 }
 
-async function buildWithWebpack(directory: string, publicPath: string, root = "app"): Promise<void> {
+async function buildWithWebpack(directory: string, publicPath: string): Promise<void> {
   const compiler = webpack({
     mode: "production",
-    context: project(root),
+    context: project("app"),
     entry: "./main.js",
     output: { path: project("webpack", directory), publicPath },
     performance: false,

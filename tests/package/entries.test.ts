@@ -1,5 +1,4 @@
-// The download size of each entry: bundled and minified, without the wasm.
-// tests/package/size.test.ts limits the wasm.
+// The download size of the wasm, and of each entry: bundled and minified, without the wasm.
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { gzipSync } from "node:zlib";
@@ -130,4 +129,16 @@ it("the script without a bundler costs at most 17 kB more than inline.js, gzippe
   const script = gzipped(readFileSync(join(import.meta.dirname, "../../dist/hidden-point-removal.global.js")));
   console.log(`hidden-point-removal.global.js: ${script} bytes gzipped`);
   expect(script).toBeLessThan((await sizeOf("inline.js")) + 17_000);
+});
+
+// Every page that uses the package downloads the wasm. Formatting of floats, a second
+// compilation for another type of number, or a library for one operation can each add 10
+// to 40 kB unnoticed.
+it("the wasm has at most 165 kB, gzipped", () => {
+  expect(gzipped(wasmBytes())).toBeLessThanOrEqual(165_000);
+});
+
+// What of the crate it leaves out stands in src/base/build.rs and src/wasm/mod.rs.
+it("the wasm of the operator alone has at most 52 kB, gzipped", () => {
+  expect(gzipped(liteBytes())).toBeLessThanOrEqual(52_000);
 });

@@ -179,16 +179,6 @@ describe("messages of the core", () => {
 });
 
 describe("disposed", () => {
-  it("answers every later call, and may be disposed of twice", async () => {
-    const cloud = new PointCloud(sphere);
-    cloud.dispose();
-    cloud.dispose();
-    expect((await problemOf(() => cloud.visibleFrom(farAway))).code).toBe("disposed");
-    expect((await problemOf(() => cloud.autoRadius(farAway))).code).toBe("disposed");
-    expect((await problemOf(() => cloud.append(sphere))).code).toBe("disposed");
-    expect((await problemOf(() => cloud.remove([0]))).code).toBe("disposed");
-  });
-
   it("is what Symbol.dispose does", async () => {
     const cloud = new PointCloud(sphere);
     cloud[Symbol.dispose]();

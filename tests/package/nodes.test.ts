@@ -376,20 +376,10 @@ describe("refuses", () => {
     other.dispose();
   });
 
-  it("once each, a radius that is too small and a direction that has no limit", async () => {
+  it("once, a direction that has no limit", async () => {
     const nodes = split(bumpySphere(1, 3000), 3);
     const scene = sceneOf(nodes, { radius: 3, inversion: { power: 2 } });
     const told = codes(scene.filter);
-    const far = sceneOf(split(bumpySphere(1, 3000), 3), { radius: 3 });
-    const toldFar = codes(far.filter);
-    for (let i = 0; i < 5; i++) {
-      far.camera.position.fromArray(far.root.localToWorld(new THREE.Vector3(0, 0, 5 + i)).toArray());
-      await settle(far);
-    }
-    expect(toldFar).toEqual(["radius view"]);
-    far.camera.position.fromArray(far.root.localToWorld(new THREE.Vector3(0, 0, 1.5)).toArray());
-    await settle(far);
-    expect(far.filter.visibleCount).toBeGreaterThan(100);
     const camera = new THREE.OrthographicCamera();
     for (let i = 0; i < 3; i++) await settle({ filter: scene.filter, camera });
     expect(told).toEqual(["option view"]);

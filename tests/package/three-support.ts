@@ -34,17 +34,6 @@ export function sceneOf({ THREE }: Adapter, positions: Float32Array) {
 
 export type Scene = ReturnType<typeof sceneOf>;
 
-/** The next answer of a filter. */
-export function nextChange(filter: Filter): Promise<{ count: number; milliseconds: number }> {
-  return new Promise((resolve) => {
-    const listener = (event: { count: number; milliseconds: number }) => {
-      filter.removeEventListener("change", listener);
-      resolve(event);
-    };
-    filter.addEventListener("change", listener);
-  });
-}
-
 /** The indices of the points that a geometry draws, in order. */
 export function drawn({ index, drawRange, attributes }: Three.BufferGeometry): number[] {
   const start = Math.max(0, drawRange.start);

@@ -2,16 +2,7 @@
 import { afterEach, beforeAll, describe, expect, it } from "vitest";
 
 import { bumpySphere, randomNumbers } from "./support";
-import {
-  type Adapter,
-  adapterFor,
-  drawn,
-  type Filter,
-  nextChange,
-  type Scene,
-  sceneOf,
-  VERSIONS,
-} from "./three-support";
+import { type Adapter, adapterFor, drawn, type Filter, type Scene, sceneOf, VERSIONS } from "./three-support";
 
 const sphere = bumpySphere(1, 3000);
 
@@ -47,25 +38,6 @@ describe.each(VERSIONS)("with %s", (name, load) => {
     expect(adapter.THREE.REVISION).toMatch(name === "three" ? /^1[89]\d/ : /^159$/);
     filterFor(points, { worker: false }).update(camera);
     expect(points.geometry.index).toBeInstanceOf(adapter.THREE.BufferAttribute);
-  });
-
-  it.each([true, false])("draws what is visible from the camera, with worker: %s", async (worker) => {
-    const { points, camera, geometry } = sceneOf(adapter, sphere);
-    const filter = filterFor(points, { worker, exponent: 3 });
-    expect(filter.visibleCount).toBe(3000);
-    const change = nextChange(filter);
-    filter.update(camera);
-    await filter.ready;
-    const expected = visibleFrom([0, 0, 5], { exponent: 3 });
-    expect(drawn(geometry)).toEqual(expected);
-    expect(filter.visibleCount).toBe(expected.length);
-    expect(await change).toMatchObject({ count: expected.length, milliseconds: expect.any(Number) as number });
-
-    camera.position.set(-3, 1, 0.5);
-    const moved = nextChange(filter);
-    filter.update(camera);
-    await moved;
-    expect(drawn(geometry)).toEqual(visibleFrom([-3, 1, 0.5], { exponent: 3 }));
   });
 
   it("is ready without a view, too, and answers at once without a worker", async () => {

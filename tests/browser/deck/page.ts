@@ -20,8 +20,6 @@ export interface DeckPage {
   visibleFrom: (viewpoint: number[], positions?: number[]) => Promise<number[]>;
   /** How many workers were started. */
   workers: () => number;
-  /** Ends the worker as if it had died by itself. */
-  killWorker: () => void;
   /** Ends this many workers, each as soon as it is asked about a view. */
   killWorkerWhenAsked: (times?: number) => void;
   /** Workers hear nothing from now on. */
@@ -103,9 +101,6 @@ const page: DeckPage = {
     return [...new PointCloud(of).visibleFrom(viewpoint, { exponent: 3 }).indices];
   },
   workers: () => workers.length,
-  killWorker: () => {
-    kill(workers.at(-1)!);
-  },
   killWorkerWhenAsked: (times = 1) => {
     toKill = times;
   },
