@@ -6,7 +6,7 @@ import type { ChosenColumns } from "../formats/axes.js";
 import { PointCloud } from "../index.js";
 import { TRANSFER_ROWS, type TransferOptions } from "../query/option-rows.js";
 import type { VisibilityOptions } from "../query/view-options.js";
-import { MAX_WORKERS } from "../worker/workers.js";
+import { MAX_WORKERS } from "../worker/team.js";
 import { endingOf, FORMATS } from "./formats.js";
 import { chosenFormat, type OutputFormat } from "./outputs.js";
 import { oneOf, readColumns, readCount, readOption, readThreshold, readViewpoint, UsageProblem } from "./values.js";

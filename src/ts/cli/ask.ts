@@ -3,7 +3,7 @@ import { type ImageCamera, isCamera } from "../query/camera.js";
 import type { SeenBy } from "../query/surveys.js";
 import type { VisibilityOptions } from "../query/view-options.js";
 import { WorkerPointCloud } from "../worker.js";
-import { defaultWorkers } from "../worker/workers.js";
+import { defaultWorkers } from "../worker/team.js";
 import type { PointFile } from "./formats.js";
 import type { NamedCamera, NamedSeat } from "./places.js";
 import { stat } from "node:fs/promises";

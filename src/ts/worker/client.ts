@@ -35,7 +35,7 @@ import type { ScoredIf } from "../cloud/visibility.js";
 import { abortError, readSignal, reasonOf, untilAborted } from "./abort.js";
 import { RequestQueue } from "./request-queue.js";
 import { ViewStream, type ViewStreamOptions } from "./view-stream.js";
-import { MAX_WORKERS } from "./workers.js";
+import { MAX_WORKERS } from "./team.js";
 
 /// <reference lib="esnext.disposable" preserve="true" />
 

@@ -11,6 +11,7 @@ import {
 } from "./protocol.js";
 import { joinThread } from "./shared-thread.js";
 import type { SurveyTask } from "../query/surveys.js";
+import { hasNodeModules, importNodeModule } from "../base/node.js";
 
 /**
  * Threads that hold the same cloud, each in its own wasm instance. All members make a change, and it is answered when
@@ -262,4 +263,33 @@ export class Dealing {
     const place = isLost ? -1 : number;
     if (this.#failure === undefined || place < this.#failure.place) this.#failure = { place, reply };
   }
+}
+
+/** More workers would only wait for memory, and each of them holds the whole cloud. */
+export const MAX_WORKERS = 64;
+/** For fewer points, a second worker gains too little. */
+const CROSSOVER = 200_000;
+/** The largest number of points by default, summed over the copies of all workers. */
+const MAX_DEFAULT_POINTS = 16_000_000;
+
+/** How many workers gain something when they share many views of a cloud with this number of points. */
+export async function defaultWorkers(points: number): Promise<number> {
+  if (points < CROSSOVER) {
+    return 1;
+  }
+  const fit = Math.floor(MAX_DEFAULT_POINTS / points);
+  return Math.max(1, Math.min(await cores(), MAX_WORKERS, fit));
+}
+
+async function cores(): Promise<number> {
+  const { navigator } = globalThis as { navigator?: { hardwareConcurrency?: unknown } };
+  const count = navigator?.hardwareConcurrency;
+  if (typeof count === "number" && count >= 1) {
+    return Math.floor(count);
+  }
+  if (hasNodeModules()) {
+    const os = await importNodeModule<typeof import("node:os")>("node:os");
+    return os.availableParallelism();
+  }
+  return 1;
 }
