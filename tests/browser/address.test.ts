@@ -1,20 +1,29 @@
+// The address opens the page with a cloud, a view, settings, marks and stations, and has them after each change.
 import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { expect, test } from "vitest";
 import { readAddress } from "../../www/settings/address.js";
 import { asciiPly, ball } from "./clouds.js";
 import {
+  addressWritten,
   answered,
   answerInNode,
+  drag,
   dragonPositions,
   openPage,
   openReady,
+  PHONE,
   reached,
   refiltered,
   served,
   settled,
+  site,
   status,
+  type Status,
+  unfold,
+  upToDate,
 } from "./support.js";
+import { type Page } from "playwright-core";
 
 const bunny = createRequire(import.meta.url)("bunny") as { positions: number[][] };
 
@@ -153,4 +162,213 @@ test("?src of a page instead of a cloud is refused in a plain sentence, and the 
   expect(await page.locator("#sample").inputValue()).toBe("bunny");
   await page.locator("#view").press("ArrowLeft");
   expect((await refiltered(page, now)).state).toBe("ready");
+});
+
+/** The query of the address, after the page has written its last change. */
+async function written(page: Page): Promise<string> {
+  await addressWritten(page);
+  return new URL(page.url()).search;
+}
+
+function same({ visible, viewpoint, radius, inversion }: Status) {
+  return { visible, viewpoint, radius, inversion };
+}
+
+test("a copied address shows the same cloud, camera and settings again", async () => {
+  const page = await openReady("?sample=dragon_res4");
+  await unfold(page, "Advanced");
+  await page.getByRole("radio", { name: "2 looks" }).check();
+  await page.getByRole("radio", { name: "Ghost" }).check();
+  await unfold(page, "Look");
+  await page.getByLabel("Point size").fill("2");
+  await page.getByLabel("Field of view", { exact: true }).fill("30");
+  await drag(page, 90, 40);
+  await drag(page, 80, -50, "right");
+  const query = await written(page);
+  expect(query).toMatch(/^\?sample=dragon_res4&/);
+  for (const part of ["looks=2", "hidden=dimmed", "size=2", "fov=30", "view=", "target="]) {
+    expect(query).toContain(part);
+  }
+  const before = same(await upToDate(page));
+  const again = await openReady(query);
+  expect(same(await upToDate(again))).toEqual(before);
+  expect(await again.getByLabel("Point size").inputValue()).toBe("2");
+  expect(await again.getByLabel("Field of view", { exact: true }).inputValue()).toBe("30");
+  expect(await again.getByRole("radio", { name: "Ghost" }).isChecked()).toBe(true);
+  expect(await written(again)).toBe(query);
+});
+
+test("the address also restores the length of the radius, the frozen viewpoint and the up axis", async () => {
+  const page = await openReady("?sample=bunny&radius=40");
+  await unfold(page, "Look");
+  await page.locator("#up-axis").getByRole("radio", { name: "Z", exact: true }).check();
+  await page.locator("#view").press("v");
+  await drag(page, 120, 0);
+  const query = await written(page);
+  for (const part of ["radius=40", "up=z", "freeze=", "view="]) {
+    expect(query).toContain(part);
+  }
+  const again = await openReady(query);
+  expect(same(await upToDate(again))).toEqual(same(await upToDate(page)));
+  expect(await again.locator("#walk").getAttribute("aria-pressed")).toBe("true");
+  expect(await again.locator("#up-axis").getByRole("radio", { name: "Z", exact: true }).isChecked()).toBe(true);
+});
+
+test("at the first view and with the usual settings the address is empty", async () => {
+  const page = await openReady("?sample=dragon_res4");
+  await unfold(page, "Advanced");
+  await page.getByLabel("Exponent", { exact: true }).fill("2");
+  await drag(page, 50, 0);
+  expect(await written(page)).toMatch(/exponent=2.*view=/);
+  await page.getByRole("button", { name: "Automatic" }).click();
+  await page.getByRole("button", { name: "Reset view" }).click();
+  expect(await written(page)).toBe("?sample=dragon_res4");
+});
+
+test("a radius and an exponent exclude each other", async () => {
+  const page = await openReady("?sample=bunny&radius=40&exponent=2");
+  expect((await upToDate(page)).exponent).toBeCloseTo(2, 12);
+  expect(await page.locator("#message p").textContent()).toMatch(/exclude each other/);
+});
+
+test("the settings of one cloud do not go to the next", async () => {
+  const page = await openReady("?sample=bunny&view=1,8,-12&freeze=1,8,-12&size=2&radius=40&hidden=shown");
+  await upToDate(page);
+  await page.locator("#sample").selectOption("dragon_res4");
+  await page.locator('#status[data-total="5205"]').waitFor();
+  const query = await written(page);
+  expect(new URLSearchParams(query).get("hidden")).toBe("shown");
+  for (const gone of ["view", "freeze", "size", "radius"]) expect(query).not.toContain(`${gone}=`);
+});
+
+test("data-busy is 1 from a change until its answer is there", async () => {
+  const page = await openReady("?sample=bunny");
+  await upToDate(page);
+  const busy = await page.evaluate(() => {
+    document.querySelector<HTMLElement>('#looks [value="2"]')!.click();
+    return document.getElementById("status")!.dataset["busy"];
+  });
+  expect(busy).toBe("1");
+  expect((await upToDate(page)).inversion).toMatch(/^looks:[^,]+,[^,]+$/);
+});
+
+const tool = (page: Page, name: string) => page.locator("#tool-bar").getByRole("button", { name });
+
+/** All marks. */
+async function marks(page: Page) {
+  return {
+    measures: await page.locator("#marks .measure text").allTextContents(),
+    labels: await page.locator("#label-list li span").allTextContents(),
+    stations: await page.locator("#stations-card .list span").allTextContents(),
+  };
+}
+
+/** Clicks at places around the middle of the picture. */
+async function click(page: Page, ...places: [number, number][]): Promise<void> {
+  const box = (await page.locator("#view").boundingBox())!;
+  for (const [x, y] of places) await page.mouse.click(box.x + box.width / 2 + x, box.y + box.height / 2 + y);
+}
+
+test("a link has the distances, labels and stations, and opens with them", async () => {
+  const page = await openReady("?sample=bunny&size=1.4");
+  await tool(page, "Measure").click();
+  await click(page, [-40, 0], [40, 10]);
+  await page.locator("#marks .measure").waitFor({ state: "attached" });
+  await tool(page, "Label").click();
+  await click(page, [0, 20]);
+  await page.locator("#label-text").fill("Ear, left & “<b>”");
+  await page.locator("#label-text").press("Enter");
+  await tool(page, "Stations").click();
+  await page.getByRole("button", { name: "At the camera" }).click();
+  await page.locator("#stations-unseen[data-count]").waitFor({ state: "attached" });
+  const before = await marks(page);
+  expect(before).toEqual({
+    measures: [expect.stringContaining("units")],
+    labels: ["Ear, left & “<b>”"],
+    stations: ["S1"],
+  });
+  const query = await addressWritten(page);
+  expect([...query.keys()]).toEqual(["sample", "size", "measure", "label", "station"]);
+
+  const again = await openReady(`?${query.toString()}`);
+  await expect.poll(() => marks(again)).toEqual(before);
+  expect((await addressWritten(again)).toString()).toBe(query.toString());
+  expect(await again.locator("#message").isVisible()).toBe(false);
+
+  // What is removed is no longer in the address.
+  await tool(page, "Measure").click();
+  await page.locator("#measure-clear").click();
+  expect([...(await addressWritten(page)).keys()]).toEqual(["sample", "size", "label", "station"]);
+  // Marks do not go to the next cloud.
+  await page.locator("#sample").selectOption("dragon_res4");
+  await page.locator('#status[data-total="5205"]').waitFor();
+  expect([...(await addressWritten(page)).keys()]).toEqual(["sample"]);
+});
+
+test("the code for another page shows the present view: the package and the element have the same answer", async () => {
+  const page = await openReady("?sample=bunny&view=1,8,-12&target=0,5,0&fov=30&size=1.4&exponent=2", {
+    permissions: ["clipboard-read", "clipboard-write"],
+  });
+  const { visible, viewpoint } = await upToDate(page);
+  await tool(page, "Export").click();
+  await page.locator("#export-card .use").click();
+  const copied = async (name: string) => {
+    await page.getByRole("button", { name: `Copy ${name}` }).click();
+    await page.locator("#use output", { hasText: "Copied." }).waitFor();
+    return page.evaluate(() => navigator.clipboard.readText());
+  };
+  const [, from, options] = /visibleFrom\((\[.*?\]), \{ (.*) \}\);$/.exec(await copied("npm package"))!;
+  expect(JSON.parse(from!)).toEqual(viewpoint);
+  expect(options).toBe("exponent: 2");
+  const three = await copied("three.js");
+  expect(three).toContain(`camera.position.set(${viewpoint.join(", ")});\ncamera.lookAt(0, 5, 0);`);
+  expect(three).toContain("new HiddenPointFilter(points, { exponent: 2 });");
+  const code = await copied("HTML element");
+  const [script, element] = code.split("\n");
+  expect(script).toBe(`<script type="module" src="${site.address}hidden-point-cloud.js"></script>`);
+  served.set("other.html", new TextEncoder().encode(`<!doctype html><link rel="icon" href="data:," />${code}`));
+  await page.goto(`${site.address}other.html`);
+  const shown = await page.evaluate(async () => {
+    const found = document.querySelector("hidden-point-cloud") as HTMLElement & {
+      ready: Promise<void>;
+      visibleCount: number;
+      viewpoint: number[];
+    };
+    await customElements.whenDefined("hidden-point-cloud");
+    await found.ready;
+    return { visible: found.visibleCount, viewpoint: found.viewpoint };
+  });
+  expect(shown, element).toEqual({ visible, viewpoint });
+});
+
+test("on a phone with the tools open, the address opens exactly the same picture", async () => {
+  const page = await openReady("?sample=bunny&measure=5,1000", PHONE);
+  await drag(page, 40, 30);
+  const end = (opened: Page) =>
+    opened
+      .locator("#marks .measure .dot")
+      .first()
+      .evaluate((dot) => {
+        const { x, y } = dot.getBoundingClientRect();
+        return [x, y].map(Math.round);
+      });
+  const query = await addressWritten(page);
+  const again = await openReady(`?${query.toString()}`, PHONE);
+  await again.locator("#marks .measure .dot").first().waitFor({ state: "attached" });
+  await expect.poll(() => end(again)).toEqual(await end(page));
+});
+
+test("marks that do not suit the cloud are left out, and a sentence says so", async () => {
+  const page = await openReady("?sample=bunny&measure=1,2&measure=1,9999&label=5,Nose&label=x,Y&station=1,2,North");
+  await expect.poll(() => page.locator("#message p").textContent()).toMatch(/^Some marks or stations in the address/);
+  expect(await marks(page)).toMatchObject({ measures: [expect.any(String)], labels: ["Nose"], stations: [] });
+  expect((await addressWritten(page)).toString()).toBe("sample=bunny&measure=1%2C2&label=5%2CNose");
+});
+
+test("the marks of a file that cannot be opened do not go to the sample that replaces it", async () => {
+  served.set("clouds/empty.xyz", new Uint8Array());
+  const page = await openPage("?src=clouds/empty.xyz&measure=1,2");
+  await page.locator("#tools:not([inert])").waitFor();
+  await upToDate(page);
+  expect((await marks(page)).measures).toEqual([]);
 });

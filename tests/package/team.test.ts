@@ -1,6 +1,5 @@
-// What a cloud asks of its workers, and what it makes of their answers and deaths.
-import { afterEach, beforeEach, describe, expect, it } from "vitest";
-
+// What a cloud asks of its workers, which of them gets which view of a survey, and what it makes of their refusals and deaths.
+import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 import { found, heldBy, scripted, until, useOwnWorkers, useScriptedWorkers } from "./scripted-workers";
 import { bumpySphere, problemOf, readyPackage } from "./support";
 
@@ -10,7 +9,10 @@ const points = bumpySphere(1, 100);
 const farAway = [0, 0, 5];
 
 beforeEach(useScriptedWorkers);
-afterEach(useOwnWorkers);
+afterEach(() => {
+  vi.restoreAllMocks();
+  useOwnWorkers();
+});
 
 const cloudIn = (workers: number) => heldBy(workers, WorkerPointCloud.create(points, { workers }), 100);
 const kindsSent = () => scripted.map(({ posted }) => posted.map(({ kind }) => kind));
@@ -140,4 +142,207 @@ describe("a view", () => {
     scripted[0]!.answers({ radius: 4, exponent: 0, evaluations: 0 });
     expect((await next).radius).toBe(4);
   });
+});
+
+/** The cloud goes on: each worker answers the next view. */
+async function expectAnswer(cloud: Awaited<ReturnType<typeof cloudIn>>) {
+  const view = cloud.visibleFrom(farAway);
+  scripted[0]!.answers(found([], 100));
+  expect((await view).count).toBe(0);
+}
+
+describe("a change", () => {
+  it.each(["append", "remove"] as const)("by %s is for all workers; who has no memory for it leaves", async (kind) => {
+    const cloud = await cloudIn(3);
+    const change = kind === "append" ? cloud.append(points) : cloud.remove([1, 2]);
+    const numbers = kind === "append" ? points : Uint32Array.of(1, 2);
+    const sent = kind === "append" ? { positions: numbers } : { indices: numbers };
+    for (const { posted, moved } of scripted) {
+      expect(posted.at(-1)).toEqual({ kind, module: undefined, ...sent });
+      expect(moved.at(-1)).toEqual([numbers.byteLength]);
+    }
+    const size = { length: 200, skipped: 0, spacing: 1 };
+    scripted[0]!.answers(size);
+    scripted[1]!.refuses("too-large", "no memory");
+    expect(cloud.length).toBe(100);
+    scripted[2]!.answers(size);
+    await change;
+    expect(cloud.length).toBe(200);
+    expect(scripted.map(({ isEnded }) => isEnded)).toEqual([false, true, false]);
+    // The views of a survey are for those who are left.
+    const asked = cloud.coverage([farAway, farAway]);
+    await new Promise((resolve) => setImmediate(resolve));
+    expect(newest().map((request) => request.kind)).toEqual(["visibleFrom", kind, "visibleFrom"]);
+    scripted[0]!.answers(found([130], 200));
+    scripted[2]!.answers(found([2], 200));
+    expect((await asked).filter((count) => count > 0)).toHaveLength(2);
+  });
+
+  it.each(["append", "remove"] as const)(
+    "by %s is refused if all workers refuse it, and nobody leaves",
+    async (kind) => {
+      const cloud = await cloudIn(2);
+      const change = kind === "append" ? cloud.append(points) : cloud.remove([100]);
+      scripted[1]!.refuses("option", "second");
+      scripted[0]!.refuses("option", "first");
+      expect(await problemOf(() => change)).toMatchObject({ code: "option", message: "first" });
+      expect(scripted.map(({ isEnded }) => isEnded)).toEqual([false, false]);
+      await expectAnswer(cloud);
+    },
+  );
+
+  it.each(["append", "remove"] as const)("by %s that loses a worker ends the cloud", async (kind) => {
+    const cloud = await cloudIn(2);
+    const change = kind === "append" ? cloud.append(points) : cloud.remove([1]);
+    scripted[0]!.answers({ length: 200, skipped: 0, spacing: 1 });
+    scripted[1]!.refuses("internal", "a trap");
+    expect(await problemOf(() => change)).toMatchObject({ code: "internal", message: "a trap" });
+    expect(scripted.map(({ isEnded }) => isEnded)).toEqual([true, true]);
+  });
+
+  it("is asked of nobody if there is no memory for the copies", async () => {
+    const cloud = await cloudIn(2);
+    const copy = vi.spyOn(Uint32Array.prototype, "slice").mockImplementation(() => {
+      throw new RangeError("Array buffer allocation failed");
+    });
+    const change = problemOf(() => cloud.remove([1]));
+    expect(copy).toHaveBeenCalled();
+    copy.mockRestore();
+    expect(await change).toMatchObject({ code: "too-large" });
+    expect(newest().map(({ kind }) => kind)).toEqual(["create", "create"]);
+    await expectAnswer(cloud);
+  });
+});
+
+const places = [1, 2, 3].map((z) => [0, 0, z]);
+
+/** Where the views of each worker stand. The first request is the cloud itself. */
+const views = () => scripted.map(({ posted }) => posted.slice(1).map(({ viewpoint }) => (viewpoint as number[])[2]));
+const dealt = () => new Promise((resolve) => setImmediate(resolve));
+
+it("every worker has one view at a time", async () => {
+  const cloud = await cloudIn(2);
+  const asked = cloud.coverage(places);
+  const later = cloud.autoRadius(places[0]!);
+  await dealt();
+  expect(views()).toEqual([[2], [1]]);
+  scripted[0]!.answers(found([1, 2, 3], 100));
+  expect(views()).toEqual([[2, 3], [1]]);
+  expect(scripted[0]!.posted.at(-1)).toMatchObject({ kind: "visibleFrom" });
+  scripted[1]!.answers(found([2], 100));
+  expect(views()).toEqual([[2, 3], [1]]);
+  scripted[0]!.answers(found([2, 3], 100));
+  expect([...(await asked).subarray(0, 5)]).toEqual([0, 1, 3, 2, 0]);
+  // Only now is it the turn of the next request.
+  scripted[0]!.answers({ radius: 4, exponent: 0, evaluations: 0 });
+  expect((await later).radius).toBe(4);
+});
+
+it("no worker is asked about no viewpoints", async () => {
+  const cloud = await cloudIn(2);
+  expect(await cloud.coverage([])).toEqual(new Uint32Array(100));
+  expect(views()).toEqual([[], []]);
+});
+
+it("of several refusals, the one of the first viewpoint counts, and nothing more is asked", async () => {
+  const cloud = await cloudIn(2);
+  for (const order of [
+    [0, 1],
+    [1, 0],
+  ]) {
+    const before = views();
+    const asked = problemOf(() => cloud.coverage(places));
+    await dealt();
+    // The second worker has the first viewpoint.
+    for (const number of order) scripted[number]!.refuses("radius", `viewpoint ${1 - number}`);
+    expect(await asked).toMatchObject({ code: "radius", message: "viewpoint 0" });
+    expect(views()).toEqual([
+      [...before[0]!, 2],
+      [...before[1]!, 1],
+    ]);
+  }
+});
+
+it("a refusal is not told before all views have ended", async () => {
+  const cloud = await cloudIn(2);
+  const asked = problemOf(() => cloud.coverage(places));
+  const later = cloud.autoRadius(places[0]!);
+  await dealt();
+  scripted[1]!.refuses("radius", "too small");
+  expect(scripted[1]!.posted).toHaveLength(2);
+  scripted[0]!.answers(found([1], 100));
+  expect((await asked).message).toBe("too small");
+  scripted[0]!.answers({ radius: 4, exponent: 0, evaluations: 0 });
+  expect((await later).radius).toBe(4);
+});
+
+it.each([
+  ["before", [1, 0]],
+  ["after", [0, 1]],
+])("a worker that is lost %s another refusal ends the cloud", async (_, order) => {
+  const cloud = await cloudIn(2);
+  const asked = problemOf(() => cloud.coverage(places));
+  await dealt();
+  for (const number of order) {
+    // The other worker has the first viewpoint.
+    if (number === 0) scripted[0]!.refuses("internal", "a trap");
+    else scripted[1]!.refuses("radius", "too small");
+  }
+  expect(await asked).toMatchObject({ code: "internal", message: "a trap" });
+  expect(scripted.map(({ isEnded }) => isEnded)).toEqual([true, true]);
+});
+
+it("of two workers that are lost, the first is named", async () => {
+  const cloud = await cloudIn(2);
+  const asked = problemOf(() => cloud.coverage(places));
+  await dealt();
+  scripted[0]!.refuses("internal", "first");
+  scripted[1]!.refuses("internal", "second");
+  expect((await asked).message).toBe("first");
+});
+
+it("nothing more is asked after an answer that cannot be taken", async () => {
+  const cloud = await cloudIn(2);
+  const asked = problemOf(() => cloud.placeViewpoints(places, { weights: [1, 2, 3] }));
+  await dealt();
+  scripted[0]!.answers(found([1], 100));
+  scripted[1]!.answers(found([2], 100));
+  expect((await asked).code).toBe("option");
+  expect(views()).toEqual([[2], [1]]);
+});
+
+it("nothing more is asked after an abort", async () => {
+  const cloud = await cloudIn(2);
+  const controller = new AbortController();
+  const asked = problemOf(() => cloud.coverage(places, { signal: controller.signal }));
+  await dealt();
+  controller.abort();
+  expect((await asked).name).toBe("AbortError");
+  const later = cloud.autoRadius(places[0]!);
+  scripted[0]!.answers(found([1], 100));
+  scripted[1]!.answers(found([1], 100));
+  expect(scripted.map(({ posted }) => posted.map(({ kind }) => kind).filter((kind) => kind === "visibleFrom"))).toEqual(
+    [["visibleFrom"], ["visibleFrom"]],
+  );
+  scripted[0]!.answers({ radius: 4, exponent: 0, evaluations: 0 });
+  expect((await later).radius).toBe(4);
+});
+
+it("a survey that waits is overtaken by a newer one with `latest`, and tells its progress", async () => {
+  const cloud = await cloudIn(2);
+  const running = cloud.autoRadius(places[0]!);
+  const told: number[] = [];
+  const overtaken = problemOf(() => cloud.coverage(places, { latest: true }));
+  const asked = cloud.coverage([[0, 0, 7]], { latest: true, onProgress: (share) => told.push(share) });
+  expect((await overtaken).name).toBe("AbortError");
+  scripted[0]!.answers({ radius: 4, exponent: 0, evaluations: 0 });
+  await running;
+  await dealt();
+  expect(scripted.map(({ posted }) => posted.at(-1)!["viewpoint"])).toEqual([
+    [0, 0, 1],
+    [0, 0, 7],
+  ]);
+  scripted[1]!.answers(found([1], 100));
+  expect((await asked)[1]).toBe(1);
+  expect(told).toEqual([1]);
 });
