@@ -223,8 +223,6 @@ export const PARAMETERS = {
   }),
 };
 
-export type ParameterName = keyof typeof PARAMETERS;
-
 /** The end of a sentence about a value that cannot be used, after "is not". */
 export function refusalOf({ values, otherwise }: Pick<AnyParameter, "values" | "otherwise">): string {
   return `${values.replaceAll("`", "")}, so ${otherwise}`;
