@@ -68,7 +68,7 @@ impl Level {
                     let (c, d) = (number(line + across + at), number(line + across + at + 1));
                     let (most, least) = (a.max(b).max(c.max(d)), a.min(b).min(c.min(d)));
                     let q = (most - least) / (least + 1.0);
-                    let share = q * (q * 0.25 + 0.708 * h) * gauge.bend;
+                    let share = q * (q * 0.25 + 0.708 * h);
                     let is_known = most.cmplt(Vec4::splat(UNKNOWN));
                     let is_much = share.cmpge(Vec4::splat(MOST_LOST));
                     let none = Vec4::ZERO;
@@ -97,7 +97,7 @@ impl Level {
                 let most = largest(&below[1], &above[1]);
                 let inverse = squared(at).recip();
                 let sum = (inverse + inverse * inverse) * grown;
-                let lost = share + sum.min(Vec4::splat(2.0)) * (gauge.bend * 0.125 * h * h);
+                let lost = share + sum.min(Vec4::splat(2.0)) * (0.125 * h * h);
                 let own = Vec4::from_slice(&self.bounds[line + at..]);
                 let to = &mut to[row * (self.columns + 1) + at..];
                 if !own.cmplt(Vec4::splat(UNKNOWN)).any() {

@@ -15,8 +15,6 @@ pub(super) const MOST: f64 = 1e30;
 /// Champions that are nearer are left out, and no distance in a map is less. Single precision may flush a smaller one to 0.
 pub(super) const LEAST: f32 = 1e-30;
 pub(super) const UNIT: f32 = 0.5 * f32::EPSILON;
-/// There, triangles of all points bend less than those of champions, of which there is one for three points.
-const BEND: f32 = 1.0 / 3.0;
 
 /// How numbers in a window depend on the flip.
 #[derive(Clone, Copy)]
@@ -27,8 +25,6 @@ pub(super) struct Gauge<'a> {
     twice: Option<f32>,
     /// For looks: how far behind a surface points are hidden.
     pub behind: Option<f32>,
-    /// The share of a bend that counts between champions of the finest cells, and between corners.
-    pub bend: f32,
 }
 
 impl<'a> Gauge<'a> {
@@ -43,7 +39,6 @@ impl<'a> Gauge<'a> {
             length,
             twice: twice.map(|x| x as f32 * (1.0 - f32::EPSILON)),
             behind: behind.map(|x| x as f32),
-            bend: if behind.is_some() { BEND } else { 1.0 },
         })
     }
 

@@ -19,6 +19,8 @@ const STEP: usize = 32;
 const FEW: usize = 4096;
 /// How many points there are for each cell, of those that are about as near as the nearest one beside them.
 const NEAR_PER_CELL: f64 = 2.5;
+/// A cone has room for smaller ones.
+const NEAR_IN_CONE: f64 = 1.2;
 /// At most so many cells for each that points are in, so that a grid takes little memory.
 const MOST_EMPTY: f64 = 8.0;
 const LEAST_CELLS: f64 = 64.0;
@@ -80,7 +82,12 @@ impl Grid {
             distance < nearest[coarse.cell(side, place)] * same
         };
         let near = (seen.iter().filter(is_near).count() * step) as f64;
-        let cells = near / NEAR_PER_CELL * smaller(empty, MOST_EMPTY);
+        let per_cell = if cone.is_cone() {
+            NEAR_IN_CONE
+        } else {
+            NEAR_PER_CELL
+        };
+        let cells = near / per_cell * smaller(empty, MOST_EMPTY);
         Ok(Self::with(
             &sides,
             smaller(larger(cells, LEAST_CELLS), MOST_CELLS),
@@ -347,6 +354,10 @@ impl Cone {
         let is_all = map.towards.is_none() || half >= core::f64::consts::PI;
         let cosine = if is_all { -4.0 } else { sine_cosine(half).1 };
         Self { axis, cosine }
+    }
+
+    pub(super) fn is_cone(&self) -> bool {
+        self.cosine >= -1.0
     }
 
     fn contains(&self, v: DVec3) -> bool {

@@ -5,7 +5,8 @@
 //! by at most |δ|²/(2|c|) at a distance δ. So at a corner c, in a triangle of three champions beside it, g is at most the
 //! interpolation of gᵢ + |cᵢ − c|²/(2|c|). Both triangles count that the champions of the four cells around a corner
 //! make with a diagonal; the lower bound is the better one. The same is done with cells that are joined two by two,
-//! again and again: their triangles reach over holes. Midway between two corners, the mean of their bounds
+//! again and again: their triangles reach over holes. In a cone,
+//! those of the first join count at the corners of the finest cells as well, which are half a cell beside their corner. Midway between two corners, the mean of their bounds
 //! with that bend is a bound.
 //!
 //! Rounding. Let u be 2⁻²⁴, let n be the cells a unit, at most 4096, and let all lengths be in cells of the level.
@@ -13,10 +14,11 @@
 //! - The coordinates of a champion are wrong by u of themselves; its place in a cell is wrong by at most
 //!   4u·1.06n for the quotient and the product, by 1.1u·n for the window's start and by 2.2u·n for the difference: by less
 //!   than b = 8u·n, also after all joins.
-//! - A product of two edges, which is twice an area, is wrong by at most 4b + 2b² + 3u < E = 5b. A triangle is taken only
+//! - A place is at most 1.5 from a corner or from what is half a cell beside it, on either axis.
+//! - A product of two edges, which is twice an area, is wrong by at most 6b + 2b² + 10u < E = 7b. A triangle is taken only
 //!   if the three at the corner are at least E: then the corner is inside the exact triangle. If their sum A is at least
 //!   12E, the weights are wrong by at most 3E/(A − 3E) < 4E/A together, and this share of the range of the three is added.
-//! - |cᵢ − c|² is wrong by less than 5b.
+//! - |cᵢ − c|² is wrong by less than 7b.
 //! - The distance d is rounded up. |c| is wrong by less than 12u, and the operations of all levels round by less than 50u,
 //!   relative to the bound, as no number is negative. `MARGIN` is 128u.
 //! - The flip of a point rounds 1/z by less than `ROUNDING`.
@@ -42,6 +44,8 @@ pub(super) struct Levels {
 pub(super) struct Champions<'a> {
     pub grid: Grid,
     pub cells: &'a [Cell],
+    /// Whether only a cone counts: there is time to look between the corners of joined cells.
+    pub is_cone: bool,
 }
 
 /// Cells that are 2^k as wide, and the bounds at their corners.
@@ -70,7 +74,11 @@ impl Levels {
     #[inline(never)]
     pub(super) fn fill(
         &mut self,
-        &Champions { grid, cells }: &Champions,
+        &Champions {
+            grid,
+            cells,
+            is_cone,
+        }: &Champions,
         side: usize,
         gauge: Gauge,
         to: &mut [f32],
@@ -94,13 +102,16 @@ impl Levels {
         }
         for number in (0..=LEVELS).rev() {
             let (finer, coarser) = self.levels.split_at_mut(number + 1);
-            let level = &mut finer[number];
+            let (finer, level) = finer.split_at_mut(number);
+            let level = &mut level[0];
+            let is_between = is_cone && number == 1 && gauge.behind.is_none();
+            let between = if is_between { finer.last_mut() } else { None };
             let scale = Scale::of(&grid, window, number);
             if let Some(coarser) = coarser.first() {
                 level.inherit(coarser, &scale);
             }
             let finest = (number == 0).then_some(cells);
-            level.lower(finest, &scale, gauge, &mut self.rows);
+            level.lower(finest, &scale, gauge, &mut self.rows, between);
             level.even_out(&scale);
         }
         let scale = Scale::of(&grid, window, 0);
@@ -129,14 +140,18 @@ impl Scale {
             y: window.y as f32,
             cell: ((1u32 << number) as f64 / grid.cells_per_unit) as f32,
             part,
-            error: 5.0 * b,
-            area: (60.0 * b).max(1.0 / 64.0),
+            error: 7.0 * b,
+            area: (84.0 * b).max(1.0 / 64.0),
         }
     }
 
     /// How much |c| bends in a row of corners for each |δ|², rounded up.
     fn bend_of(&self, row: usize) -> f32 {
-        let y = f64::from(self.y) + row as f64 * f64::from(self.cell);
+        self.bend_at(row as f64)
+    }
+
+    fn bend_at(&self, row: f64) -> f32 {
+        let y = f64::from(self.y) + row * f64::from(self.cell);
         let c = square_root(1.0 + y * y);
         (0.5 * f64::from(self.cell) * f64::from(self.cell) / c) as f32 * (1.0 + 8.0 * UNIT)
     }
@@ -221,7 +236,14 @@ impl Level {
 
     /// Lowers the bounds by the triangles of the champions.
     #[inline(never)]
-    fn lower(&mut self, finest: Option<&[Cell]>, scale: &Scale, gauge: Gauge, rows: &mut [Row; 2]) {
+    fn lower(
+        &mut self,
+        finest: Option<&[Cell]>,
+        scale: &Scale,
+        gauge: Gauge,
+        rows: &mut [Row; 2],
+        mut between: Option<&mut Self>,
+    ) {
         let across = padded(self.columns);
         let [low, high] = rows;
         for row in 0..self.rows {
@@ -231,29 +253,48 @@ impl Level {
             if row == 0 {
                 continue;
             }
-            let share = if finest.is_some() { gauge.bend } else { 1.0 };
-            let bend = share * scale.bend_of(row);
+            let bend = scale.bend_of(row);
             let line = row * across;
             for at in (1..self.columns).step_by(4) {
                 if !(low.is_there(at) && high.is_there(at)) {
                     continue;
                 }
                 let bounds = &mut self.bounds[line + at..];
-                let corner = Corner {
-                    champions: [
-                        low.champion(at - 1, 1.0, 1.0, bend),
-                        low.champion(at, 0.0, 1.0, bend),
-                        high.champion(at, 0.0, 0.0, bend),
-                        high.champion(at - 1, 1.0, 0.0, bend),
-                    ],
-                    scale,
-                };
+                if let Some(finer) = &mut between {
+                    finer.lower_between([low, high], row, at, self.columns - at, scale);
+                }
+                let corner = Corner::of([low, high], at, [0.0, 0.0], bend, scale);
                 let bound = corner.bound() + bend * scale.error;
                 bound.min(Vec4::from_slice(bounds)).write_to_slice(bounds);
                 if let Some(behind) = gauge.behind {
-                    let far = corner.surface([low, high], at, scale.bend_of(row), behind);
+                    let far = corner.surface([low, high], at, bend, behind);
                     let surface = &mut self.surface[line + at..];
                     far.min(Vec4::from_slice(surface)).write_to_slice(surface);
+                }
+            }
+        }
+    }
+
+    /// Lowers the bounds that are half a cell beside corners of cells that are twice as wide.
+    #[inline(never)]
+    fn lower_between(
+        &mut self,
+        rows: [&Row; 2],
+        row: usize,
+        at: usize,
+        count: usize,
+        scale: &Scale,
+    ) {
+        let across = padded(self.columns);
+        for (y, up) in [-0.5, 0.0, 0.5].into_iter().enumerate() {
+            let line = (2 * row + y - 1) * across;
+            let bend = scale.bend_at(row as f64 + f64::from(up));
+            for (x, right) in [-0.5, 0.0, 0.5].into_iter().enumerate() {
+                let corner = Corner::of(rows, at, [right, up], bend, scale);
+                let bounds = (corner.bound() + bend * scale.error).to_array();
+                let to = self.bounds[line + 2 * at + x - 1..].iter_mut().step_by(2);
+                for (to, bound) in to.zip(bounds).take(count) {
+                    *to = least(*to, bound);
                 }
             }
         }
@@ -292,11 +333,12 @@ fn inherit_row(
     aslant: impl Fn(f32, f32) -> f32,
 ) {
     for ((to, l), h) in to.iter_mut().step_by(2).zip(low).zip(high) {
-        *to = straight(*l, *h);
+        *to = least(*to, straight(*l, *h));
     }
     let pairs = low.windows(2).zip(high.windows(2));
     for (to, (low, high)) in to[1..].iter_mut().step_by(2).zip(pairs) {
-        *to = least(aslant(low[0], high[1]), aslant(low[1], high[0]));
+        let mean = least(aslant(low[0], high[1]), aslant(low[1], high[0]));
+        *to = least(*to, mean);
     }
 }
 
@@ -369,7 +411,25 @@ pub(super) struct Triangles {
     pub picks: [BVec4A; 2],
 }
 
-impl Corner<'_> {
+impl<'a> Corner<'a> {
+    /// Places `beside` four corners, in cells.
+    #[inline(always)]
+    fn of(
+        [low, high]: [&Row; 2],
+        at: usize,
+        [right, up]: [f32; 2],
+        bend: f32,
+        scale: &'a Scale,
+    ) -> Self {
+        let champions = [
+            low.champion(at - 1, right + 1.0, up + 1.0, bend),
+            low.champion(at, right, up + 1.0, bend),
+            high.champion(at, right, up, bend),
+            high.champion(at - 1, right + 1.0, up, bend),
+        ];
+        Self { champions, scale }
+    }
+
     #[inline(always)]
     pub(super) fn triangles(&self) -> Triangles {
         let [a, b, c, d] = self.champions;

@@ -72,7 +72,12 @@ impl MapMemory {
         };
         grid.choose(points, &blocks.levels[0], viewpoint, &cone, cells)?;
         let apart = square_root(all.len() as f64 / points.len() as f64);
-        Ok(Some((Champions { grid, cells }, levels, apart)))
+        let champions = Champions {
+            grid,
+            cells,
+            is_cone: cone.is_cone(),
+        };
+        Ok(Some((champions, levels, apart)))
     }
 }
 
