@@ -1,5 +1,5 @@
 import { groundwork, type Check } from "./check.js";
-import { packageCheck, pageCheck, pythonCheck, rustChecks, typescriptChecks } from "./languages.js";
+import { packageCheck, pageCheck, pythonChecks, rustChecks, typescriptChecks } from "./languages.js";
 import { packagingChecks, supplyChecks } from "./packaging.js";
 
 /** Every check of `npm test`. They start in this order, and a check comes after the checks that it needs. */
@@ -8,7 +8,7 @@ export const checks: Check[] = [
   // The longest checks come first, so that short ones fill the gaps.
   pageCheck,
   packageCheck,
-  pythonCheck,
+  ...pythonChecks,
   ...rustChecks,
   ...typescriptChecks,
   ...packagingChecks,

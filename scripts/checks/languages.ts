@@ -1,5 +1,16 @@
 import { BARE_TARGET } from "../setup/rust.js";
-import { BUILD, SETUP, WASM_PACK, checkCommand, counted, sum, vitest, type Check, type Outcome } from "./check.js";
+import {
+  BUILD,
+  PASS,
+  SETUP,
+  WASM_PACK,
+  checkCommand,
+  counted,
+  sum,
+  vitest,
+  type Check,
+  type Outcome,
+} from "./check.js";
 import { TSC, run } from "../lib/run.js";
 import { python, setUpPython } from "../setup/python.js";
 import { roomsCheck } from "./rooms.js";
@@ -77,17 +88,24 @@ async function cargoTest(command: "cargo" | "wasm-pack", args: string[]): Promis
   return counted(ok, { ...counts, failures });
 }
 
-export const pythonCheck: Check = {
-  title: "Python package",
-  part: "python",
-  // The answers are compared with those of the npm package.
-  needs: [BUILD],
-  run: async () => {
-    // The tests of Dask, LAZ and Parquet skip themselves without their packages. `npm run test:scale` installs these.
-    const lacking = await setUpPython(["matplotlib>=3.8", "mypy>=1.11", "pandas>=2", "scipy>=1.11"]);
-    return lacking === undefined ? pytest("python/tests") : { passed: 0, failed: 0, skipped: lacking };
+const PYTHON = "Set-up: Python";
+
+export const pythonChecks: Check[] = [
+  { title: PYTHON, part: "python", needs: [SETUP], run: () => withPython(() => PASS) },
+  {
+    title: "Python package",
+    part: "python",
+    // The answers are compared with those of the npm package.
+    needs: [PYTHON, BUILD],
+    run: () => withPython(() => pytest("python/tests")),
   },
-};
+];
+
+async function withPython(work: () => Promise<Outcome> | Outcome): Promise<Outcome> {
+  // The tests of Dask, LAZ and Parquet skip themselves without their packages. `npm run test:scale` installs these.
+  const lacking = await setUpPython(["matplotlib>=3.8", "mypy>=1.11", "pandas>=2", "scipy>=1.11"]);
+  return lacking === undefined ? work() : { passed: 0, failed: 0, skipped: lacking };
+}
 
 /** Runs Python tests and reads the counts from the last line. `left` is how many tests skipped themselves. */
 export async function pytest(...args: string[]): Promise<Outcome & { left: number }> {
