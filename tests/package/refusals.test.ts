@@ -125,11 +125,8 @@ describe("a question", () => {
       { ...size, looks: 3, scores: true },
       { ...size, size: 1 },
     ].map((options): Refusal => ["option", /width|height|scores|size/, () => pano(options)]),
-    ...[[0, 0, 0], [1, 2], [NaN, 0, 1], "z"].map((up): Refusal => [
-      "viewpoint",
-      /direction/,
-      () => pano({ ...size, up }),
-    ]),
+    ["viewpoint", /direction.*zero/, () => pano({ ...size, up: [0, 0, 0] })],
+    ...[[1, 2], [NaN, 0, 1], "z"].map((up): Refusal => ["viewpoint", /direction up/, () => pano({ ...size, up })]),
     ["viewpoint", /NaN/, () => pano(size, [NaN, 0, 0])],
     ["viewpoint", /2 of them/, () => pano(size, [0, 0])],
     ["radius", /radius/, () => pano({ ...size, radius: 1 })],

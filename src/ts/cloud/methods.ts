@@ -98,7 +98,7 @@ export const METHODS = {
           throw new HprError("option", `${name} must be given: an integer from 1 to 16384`);
         }
       }
-      return { kind: "panorama", viewpoint: place, settings, width, height, up: readViewpoint(up, 3, "direction") };
+      return { kind: "panorama", viewpoint: place, settings, width, height, up: readViewpoint(up, 3, "direction up") };
     },
     (made) => made,
   ),
