@@ -39,7 +39,9 @@ test("every format opens, chosen or dropped in turn, with the file's own coordin
   const page = await openReady("?sample=bunny&looks=0");
   await openInTurn(page, FILES);
   const offered = (await page.locator("#file").getAttribute("accept"))!.split(",");
-  expect(offered).toEqual(expect.arrayContaining([...FILES.map(([name]) => name.slice(name.indexOf("."))), ".pts"]));
+  expect(offered).toEqual(
+    expect.arrayContaining([...FILES.map(([name]) => name.slice(name.indexOf("."))), ".pts", ".npy", ".bin"]),
+  );
 });
 
 test("a glTF file's numbers may lie in a second file on the web", async () => {

@@ -1,4 +1,12 @@
-// Small valid files. The coordinates have the same value in single and double precision, and in every text.
+// Small valid files.
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
+import { gzipSync } from "node:zlib";
+
+import { georeferencedBall } from "../browser/clouds";
+import { glb, gltf, las } from "../browser/formats";
+
+// The coordinates have the same value in single and double precision, and in every text.
 
 export const POINTS = [
   [0, 0, 10],
@@ -109,4 +117,40 @@ export function literals(plain: Uint8Array): Buffer {
 /** The lines of a table. `separator` stands between the columns. */
 export function table(separator: string, points: readonly (readonly (number | string)[])[] = POINTS): string {
   return points.map((point) => `${point.join(separator)}\n`).join("");
+}
+
+/** An array of NumPy. */
+export function npy(type: string, shape: string, content: ArrayBufferView, order = "False"): Buffer {
+  const head = `{'descr': ${type}, 'fortran_order': ${order}, 'shape': (${shape}), }\n`;
+  const start = Buffer.from("\x93NUMPY\x01\x00..", "latin1");
+  start.writeUInt16LE(head.length, 8);
+  const { buffer, byteOffset, byteLength } = content;
+  return Buffer.concat([start, Buffer.from(head), Buffer.from(buffer as ArrayBuffer, byteOffset, byteLength)]);
+}
+
+/** A file of each format, by its name. Those that are broken are refused. */
+export function eachFormat(): Record<string, Uint8Array | string> {
+  const fixture = (name: string) => readFileSync(join(import.meta.dirname, "../browser/fixtures", name));
+  const floats = Float32Array.from(FLAT.slice(0, 12));
+  const colmap = Buffer.alloc(8 + 51);
+  colmap.writeBigUInt64LE(1n);
+  return {
+    "ball.laz": fixture("ball-14.laz"),
+    "octree.copc.laz": fixture("octree.copc.laz"),
+    "ball.las": las(georeferencedBall(9)),
+    "two.e57": fixture("two-scans.e57"),
+    "a.ply": Buffer.concat([Buffer.from(plyHeader("little")), plyBody("little")]),
+    "a.pcd": Buffer.concat([Buffer.from(pcdHeader("binary_compressed")), pcdBody("binary_compressed")]),
+    "a.csv": "x,y,z\n1,2,3\n",
+    "a.csv.gz": gzipSync("x,y,z\n1,2,3\n"),
+    "a.obj": "v 1 2 3\n",
+    "a.ptx": "1\n1\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n1 2 3 0.5\n",
+    "a.gltf": gltf(FLAT),
+    "a.glb": glb(FLAT),
+    "a.npy": npy("'<f4'", "4, 3", floats),
+    "a.bin": new Uint8Array(floats.slice(0, 8).buffer),
+    "points3D.bin": colmap,
+    "broken.laz": fixture("ball-12.laz").subarray(0, 3000),
+    "broken.gltf": '{"asset":{"version":"2.0"}}',
+  };
 }

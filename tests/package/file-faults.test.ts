@@ -1,14 +1,16 @@
 // Files that people have, and what readers of others make of them: digits, colors, columns, odd headers, damage.
 import { spawnSync } from "node:child_process";
-import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
+import { mkdirSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
+import { pathToFileURL } from "node:url";
 import { gzipSync } from "node:zlib";
 import { type HprError, readCameras, readCloud, type ReadOptions } from "hidden-point-removal/files";
 import { describe, expect, it } from "vitest";
 
 import { georeferencedBall } from "../browser/clouds";
 import { las } from "../browser/formats";
-import { literals, packed } from "../files/valid";
+import { eachFormat, literals, npy, packed } from "../files/valid";
+import { root } from "../root";
 import { commandIn } from "./command-support";
 
 const { write, place, run } = commandIn("file-faults");
@@ -57,6 +59,7 @@ describe("colors and columns arrive", () => {
   const COLORS: [name: string, content: string, colors: number[]][] = [
     ["shares of CloudCompare, below a count", CLOUD_COMPARE, [255, 249, 0]],
     ["colors and a normal without names", NORMALS, [255, 0, 10, 0, 128, 10]],
+    ["colors and a number without names", "0 0 0 255 10 3 0.5\n1 1 1 25 10 3 0.75\n", [255, 10, 3, 25, 10, 3]],
     ["a normal and colors without names", "0 0 0 0 0 1 1 2 3\n1 1 1 0 1 0 4 5 6\n", [1, 2, 3, 4, 5, 6]],
     ["bytes times 256", "x,y,z,red,green,blue\n0,0,0,65280,256,0\n", [255, 1, 0]],
     ["bytes times 257", "x,y,z,red,green,blue\n0,0,0,65535,257,0\n", [255, 1, 0]],
@@ -191,15 +194,6 @@ describe("damaged files are read as far as they go", () => {
   });
 });
 
-/** An array of NumPy. */
-function npy(type: string, shape: string, content: ArrayBufferView, order = "False"): Buffer {
-  const head = `{'descr': ${type}, 'fortran_order': ${order}, 'shape': (${shape}), }\n`;
-  const start = Buffer.from("\x93NUMPY\x01\x00..", "latin1");
-  start.writeUInt16LE(head.length, 8);
-  const { buffer, byteOffset, byteLength } = content;
-  return Buffer.concat([start, Buffer.from(head), Buffer.from(buffer as ArrayBuffer, byteOffset, byteLength)]);
-}
-
 describe("rows of numbers with hardly a header", () => {
   const four = Float32Array.of(1, 2, 3, 0.5, 4, 5, 6, 0.25);
   const bytes = (numbers: ArrayBufferView) => new Uint8Array(numbers.buffer as ArrayBuffer);
@@ -265,6 +259,8 @@ describe("what a file is", () => {
     ["PK\x03\x04...", /it is a ZIP archive/],
     [Uint8Array.of(0xff, 0xd8, 0xff, 0xe0), /it is an image/],
     ["pnts\x01\0\0\0", /it is a tile of 3D Tiles/],
+    [gzipSync(gzipSync("1 2 3\n")), /it is packed twice with gzip/],
+    ["ncols 2\nnrows 1\nxllcorner 0\n1 2\n", /it is a grid of heights/],
     ["%PDF-1.7", /it is a PDF document/],
     ['{"asset":{"version":"1.0"}}', /it is a glTF file; its name must end with .gltf/],
     ['{"bounds":[],"dataType":"laszip","hierarchyType":"json"}', /EPT octree/],
@@ -359,43 +355,23 @@ describe("cameras", () => {
 });
 
 describe("in a process of its own, each format is read without a request and without a word", () => {
-  const fixture = (name: string) => readFileSync(join(import.meta.dirname, "../browser/fixtures", name));
-  const FILES: Record<string, Uint8Array | string> = {
-    "ball.laz": fixture("ball-14.laz"),
-    "octree.copc.laz": fixture("octree.copc.laz"),
-    "ball.las": las(georeferencedBall(9)),
-    "two.e57": fixture("two-scans.e57"),
-    "a.ply": ply(XYZ, "1 2 3\n"),
-    "a.csv": "x,y,z\n1,2,3\n",
-    "a.csv.gz": gzipSync("x,y,z\n1,2,3\n"),
-    "a.obj": "v 1 2 3\n",
-    "a.ptx": "1\n1\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n1 2 3 0.5\n",
-    "a.gltf": JSON.stringify({
-      asset: { version: "2.0" },
-      nodes: [{ mesh: 0 }],
-      meshes: [{ primitives: [{ attributes: { POSITION: 0 } }] }],
-      accessors: [{ bufferView: 0, componentType: 5126, count: 1, type: "VEC3" }],
-      bufferViews: [{ buffer: 0, byteLength: 12 }],
-      buffers: [{ byteLength: 12, uri: `data:;base64,${Buffer.alloc(12).toString("base64")}` }],
-    }),
-    "broken.laz": fixture("ball-12.laz").subarray(0, 3000),
-    "broken.gltf": '{"asset":{"version":"2.0"}}',
-  };
-  it.each(Object.keys(FILES))("%s", (name) => {
-    write(name, FILES[name]!);
+  const RUNTIMES = [
+    [process.execPath, "--input-type=module", "-e"],
+    ["deno", "eval"],
+  ].filter(([program]) => spawnSync(program!, ["--version"]).status === 0);
+  const files = eachFormat();
+  const cases = RUNTIMES.flatMap((runtime) => Object.keys(files).map((name) => [name, runtime] as const));
+  it.each(cases)("%s: %o", (name, [program, ...args]) => {
+    write(name, files[name]!);
+    const module = pathToFileURL(join(root, "dist/files.js")).href;
     const script = `
       globalThis.fetch = () => { console.log("a request"); return Promise.reject(new Error("no network")); };
-      process.on("unhandledRejection", () => console.log("unhandled"));
-      const { readCloud } = await import("hidden-point-removal/files");
+      globalThis.addEventListener?.("unhandledrejection", () => console.log("unhandled"));
+      globalThis.process?.on("unhandledRejection", () => console.log("unhandled"));
+      const { readCloud } = await import(${JSON.stringify(module)});
       await readCloud(${JSON.stringify(place(name))}).then(({ positions }) => console.log(positions.length > 0), (error) => console.log(error.code));`;
-    const root = join(import.meta.dirname, "../..");
-    const { stdout, stderr, status } = spawnSync(process.execPath, ["--input-type=module", "-e", script], {
-      cwd: root,
-    });
-    expect([status, stdout.toString(), stderr.toString()]).toEqual([
-      0,
-      name.startsWith("broken") ? "load\n" : "true\n",
-      "",
-    ]);
+    const { stdout, stderr, status } = spawnSync(program!, [...args, script], { cwd: root });
+    const says = name.startsWith("broken") ? "load\n" : "true\n";
+    expect([status, stdout.toString(), stderr.toString()]).toEqual([0, says, ""]);
   });
 });

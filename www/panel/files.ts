@@ -1,5 +1,6 @@
 import { byId } from "../controls/controls.ts";
-import { FORMATS, listed, OTHER_ENDINGS } from "../settings/limits.ts";
+import { ENDINGS } from "../../src/ts/formats/cloud-file.js";
+import { FORMATS, listed } from "../settings/limits.ts";
 
 export interface FileActions {
   /** `notes`: sentences that the user has to read about the files. */
@@ -11,7 +12,7 @@ export interface FileActions {
 /** Calls `open` for files that are chosen by the button or dropped anywhere on the page. */
 export function onFile({ open, refuse }: FileActions): void {
   const input = byId("file", HTMLInputElement);
-  input.accept = [...FORMATS, ...OTHER_ENDINGS].map((name) => `.${name.toLowerCase()}`).join();
+  input.accept = [...Object.keys(ENDINGS), "gz"].map((ending) => `.${ending}`).join();
   byId("open").addEventListener("click", () => input.click());
   input.addEventListener("change", () => {
     const files = [...(input.files ?? [])];

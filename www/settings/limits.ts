@@ -56,11 +56,8 @@ export type Inversion = "spherical" | { exponential: number | "auto" };
 /** The colors of the page: those that the system asks for, or always one theme. */
 export type ThemeChoice = "system" | "dark" | "light";
 
-/** The files that can be opened, as people write their names. Each name is also the ending of such files. */
+/** The files that can be opened, as people write their names. */
 export const FORMATS = ["LAS", "LAZ", "E57", "PTX", "PLY", "PCD", "XYZ", "TXT", "CSV", "OBJ", "glTF", "GLB"] as const;
-
-/** Other endings of such files: tables of numbers, mostly from scanners, and packed files. */
-export const OTHER_ENDINGS = ["PTS", "ASC", "GZ"] as const;
 
 /** In a sentence: "LAS, LAZ … glTF or GLB". */
 export function listed(words: readonly string[], last: "and" | "or"): string {

@@ -1,6 +1,6 @@
 import { extname } from "node:path";
 
-import type { CloudFile, Reading, Records } from "../formats/cloud-file.js";
+import { type CloudFile, ENDINGS, type Format as Holds, type Reading, type Records } from "../formats/cloud-file.js";
 import type { ChosenColumns } from "../formats/axes.js";
 import { type PlyHeader, readPlyHeader } from "../formats/ply.js";
 import { type PcdHeader, readPcdHeader } from "../formats/pcd.js";
@@ -20,7 +20,7 @@ import { plyParts } from "../formats/write/ply.js";
 import type { Transferred } from "../cloud/transfer.js";
 import { DEGREES } from "../formats/las/read-las.js";
 import { FormatProblem } from "../formats/problem.js";
-import { type Format as Holds, readFile } from "../formats/read.js";
+import { readFile } from "../formats/read.js";
 import { sourceOf } from "../files/source-of.js";
 import { compileFiles } from "../files/wasm.js";
 
@@ -267,41 +267,23 @@ interface Format {
   frame?: (file: Buffer, cloud: CloudFile, chosen?: ChosenColumns) => Frame;
   /** Whether the user can choose the columns. */
   hasColumns: boolean;
-  /** The endings of files that its points are copied to, as they are. */
+  /** The endings of files that its points are copied to, as they are. Without any, they are written in another format. */
   written: readonly string[];
 }
 
-const PLY: Format = { holds: "ply", frame: plyFrame, hasColumns: true, written: [".ply"] };
-const PCD: Format = { holds: "pcd", frame: pcdFrame, hasColumns: true, written: [".pcd"] };
-const LAS: Format = { holds: "las", frame: lasFrame, hasColumns: false, written: [".las"] };
-const TABLE: Format = {
-  holds: "table",
-  frame: tableFrame,
-  hasColumns: true,
-  written: [".xyz", ".txt", ".csv", ".pts", ".asc"],
+const ALL = Object.entries(ENDINGS).map(([ending, holds]) => [`.${ending}`, holds] as const);
+const TABLES = ALL.flatMap(([ending, holds]) => (holds === "table" ? [ending] : []));
+const FRAMES: Partial<Record<Holds, Omit<Format, "holds">>> = {
+  ply: { frame: plyFrame, hasColumns: true, written: [".ply"] },
+  pcd: { frame: pcdFrame, hasColumns: true, written: [".pcd"] },
+  las: { frame: lasFrame, hasColumns: false, written: [".las"] },
+  table: { frame: tableFrame, hasColumns: true, written: TABLES },
 };
-/** Points of such a file are written in another format only. */
-const only = (holds: Holds): Format => ({ holds, hasColumns: false, written: [] });
 
-/** The formats that can be read, by the ending of a file's name. The ending of COPC is .copc.laz. */
-export const FORMATS: Record<string, Format> = {
-  ".ply": PLY,
-  ".pcd": PCD,
-  ".xyz": TABLE,
-  ".txt": TABLE,
-  ".csv": TABLE,
-  ".pts": TABLE,
-  ".asc": TABLE,
-  ".las": LAS,
-  ".laz": LAS,
-  ".e57": only("e57"),
-  ".ptx": only("ptx"),
-  ".obj": only("obj"),
-  ".gltf": only("gltf"),
-  ".glb": only("gltf"),
-  ".bin": only("array"),
-  ".npy": only("array"),
-};
+/** The formats that can be read, by the ending of a file's name. */
+export const FORMATS: Record<string, Format> = Object.fromEntries(
+  ALL.map(([ending, holds]) => [ending, { holds, hasColumns: false, written: [], ...FRAMES[holds] }]),
+);
 
 /** The ending that tells the format of a file. `.gz` stands behind it. */
 export function endingOf(name: string): string {

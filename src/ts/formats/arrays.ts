@@ -8,6 +8,7 @@ import { Contradictions, FormatProblem, quoted } from "./problem.js";
 import { checkEnd, endOfRows, otherColumns, readBinaryRows } from "./read-rows.js";
 import { type Field, fieldsSaid, type Group, listsIn, rowBytes } from "./rows.js";
 import { bytesSource, checkByteLength, viewOf } from "./source.js";
+import { byteText } from "./text.js";
 
 /** How the numbers of a file stand in it. */
 interface Layout {
@@ -97,7 +98,7 @@ function numPy(start: Uint8Array): Layout {
   const from = wide ? 12 : 10;
   const length =
     start.length < from ? START : wide ? viewOf(start).getUint32(8, true) : viewOf(start).getUint16(8, true);
-  const text = new TextDecoder("latin1").decode(start.subarray(from, from + length));
+  const text = byteText(start.subarray(from, from + length));
   const [, types] = /'descr':\s*('[^']*'|\[[^\]]*\])/.exec(text) ?? [];
   const [, order] = /'fortran_order':\s*(True|False)/.exec(text) ?? [];
   const [, sizes] = /'shape':\s*\(([\d, ]*)\)/.exec(text) ?? [];

@@ -5,6 +5,14 @@ import type { LasSource } from "./las/details.js";
 import { type FilledColumn, type Column, valueAt } from "./numbers.js";
 import type { Source } from "./source.js";
 
+/** What files hold, by the ending of their names. `.gz` may stand behind it. The ending of COPC is .copc.laz. */
+export const ENDINGS = {
+  las: "las", laz: "las", e57: "e57", ptx: "ptx", ply: "ply", pcd: "pcd", xyz: "table", txt: "table", csv: "table",
+  pts: "table", asc: "table", obj: "obj", gltf: "gltf", glb: "gltf", npy: "array", bin: "array",
+} as const; // prettier-ignore
+
+export type Format = (typeof ENDINGS)[keyof typeof ENDINGS];
+
 export type Place = [x: number, y: number, z: number];
 
 /** A place from which points of a file were measured. */

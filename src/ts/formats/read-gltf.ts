@@ -20,7 +20,7 @@ interface Scene extends GltfJson {
   asset?: { version?: string | number };
   scene?: number;
   scenes?: { nodes?: number[] }[];
-  nodes?: Node[];
+  nodes?: (Node | null)[];
   meshes?: { primitives?: { attributes?: Record<string, number> }[] }[];
   extensionsRequired?: string[];
   extensionsUsed?: string[];
@@ -136,13 +136,13 @@ async function verticesIn(
 ): Promise<Placed[]> {
   const placed: Placed[] = [];
   const visited = new Set<number>();
-  const children = new Set(nodes.flatMap((node) => node.children ?? []));
+  const children = new Set(nodes.flatMap((node) => node?.children ?? []));
   const roots = scenes[scene]?.nodes ?? nodes.map((_, i) => i).filter((i) => !children.has(i));
   const open: [node: number, above: Matrix][] = roots.map((node): [number, Matrix] => [node, IDENTITY]).reverse();
   for (let next = open.pop(); next !== undefined; next = open.pop()) {
     const [at, above] = next;
     const node = nodes[at];
-    if (node === undefined || visited.has(at)) throw new FormatProblem(`its node ${at} is missing, or in two places`);
+    if (!node || visited.has(at)) throw new FormatProblem(`its node ${at} is missing, or in two places`);
     visited.add(at);
     const matrix = product(above, matrixOf(node));
     for (const child of [...(node.children ?? [])].reverse()) open.push([child, matrix]);

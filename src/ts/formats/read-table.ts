@@ -110,7 +110,7 @@ function otherColumns(layout: Layout, rows: readonly string[][]): Other[] {
 
 /**
  * Three columns of bytes after x y z, or after x y z and an intensity, at the end or before a normal; or after a normal, at the
- * end. A normal has the length 1 or 0.
+ * end. A normal has the length 1 or 0. Before one more column, some are larger than the small counts of LAS.
  */
 function unnamedColors({ width, axes }: Layout, rows: readonly string[][]): number[] {
   const first = Math.max(...axes) + 1;
@@ -122,10 +122,12 @@ function unnamedColors({ width, axes }: Layout, rows: readonly string[][]): numb
       const length = Math.hypot(...three(from).map((column) => cell(row[column] ?? "")?.value ?? NaN));
       return length === 0 || Math.abs(length - 1) < 0.02;
     });
+  const arePlain = (from: number) => rows.some((row) => three(from).some((column) => Number(row[column]) > 31));
   for (const from of [first, first + 1]) {
     const after = width - from - 3;
     if (areBytes(from) && (after === 0 || (after === 3 && areNormals(from + 3)))) return three(from);
   }
+  if (areBytes(first) && width === first + 4 && arePlain(first)) return three(first);
   const last = width - 3;
   return last - first >= 3 && last - first <= 4 && areBytes(last) && areNormals(last - 3) ? three(last) : [];
 }

@@ -1,5 +1,5 @@
 import { isArray, readArrays } from "./arrays.js";
-import type { CloudFile, Reading } from "./cloud-file.js";
+import type { CloudFile, Format, Reading } from "./cloud-file.js";
 import { withColors } from "./colors.js";
 import { unpacked } from "./source.js";
 import { FormatProblem } from "./problem.js";
@@ -8,12 +8,13 @@ import { readPcd } from "./pcd.js";
 import { readPly } from "./ply.js";
 import { readPtx } from "./read-ptx.js";
 import { readTable } from "./read-table.js";
+import { byteText } from "./text.js";
 
 /** How each format is read. The larger readers are loaded when they are needed. */
-const READERS = {
-  las: async (reading: Reading) => (await import("./las/read-las.js")).readLas(reading),
-  gltf: async (reading: Reading) => (await import("./read-gltf.js")).readGltf(reading),
-  e57: async (reading: Reading) => (await import("./e57.js")).readE57(reading),
+const READERS: Record<Format, (reading: Reading) => Promise<CloudFile>> = {
+  las: async (reading) => (await import("./las/read-las.js")).readLas(reading),
+  gltf: async (reading) => (await import("./read-gltf.js")).readGltf(reading),
+  e57: async (reading) => (await import("./e57.js")).readE57(reading),
   array: readArrays,
   ply: readPly,
   pcd: readPcd,
@@ -21,8 +22,6 @@ const READERS = {
   obj: readObj,
   table: readTable,
 };
-
-export type Format = keyof typeof READERS;
 
 /** Reads a file. Its first bytes show its format. If they do not, the ending of its name is used. */
 export async function readFile(reading: Reading): Promise<CloudFile & { format: Format }> {
@@ -40,7 +39,7 @@ export async function readFile(reading: Reading): Promise<CloudFile & { format: 
 }
 
 function formatOf(data: Uint8Array, name: string): Format {
-  const start = new TextDecoder("latin1").decode(data).replace(/^ï»¿/, "");
+  const start = byteText(data).replace(/^ï»¿/, "");
   const ending = /\.([a-z0-9]+)$/i.exec(name)?.[1]?.toLowerCase() ?? "";
   if (start.startsWith("LASF")) return "las";
   if (start.startsWith("glTF") || (ending === "gltf" && /^\s*\{/.test(start))) return "gltf";
@@ -67,6 +66,7 @@ function formatOf(data: Uint8Array, name: string): Format {
 const BEGINNINGS: readonly (readonly [begins: RegExp, says: string])[] = [
   [/^PK\x03\x04/, "it is a ZIP archive; unpack it, and read the file in it"],
   [/^(7z\xbc\xaf|Rar!)/, "it is an archive; unpack it, and read the file in it"],
+  [/^\x1f\x8b/, "it is packed twice with gzip; unpack it once"],
   [/^(BZh|\xfd7zXZ|\x28\xb5\x2f\xfd)/, "it is packed, but not with gzip; unpack it first"],
   [/^[^]{257}ustar/, "it is a TAR archive; unpack it, and read the file in it"],
   [/^(\xff\xd8\xff|\x89PNG|GIF8|RIFF[^]{4}WEBP|II\*\0|MM\0\*)/, "it is an image; images have no points"],
@@ -80,6 +80,7 @@ const BEGINNINGS: readonly (readonly [begins: RegExp, says: string])[] = [
   [/^Kaydara FBX/, "it is an FBX file; export it as glTF, PLY or OBJ"],
   [/^DRACO/, "it is compressed with Draco; export it without that compression"],
   [/^\s*solid\b[^]*\bfacet\b/, "it is an STL file; export it as PLY or OBJ"],
+  [/^\s*ncols\s+\d/i, "it is a grid of heights; export it as points x y z"],
   [/^\s*<(\?xml|!DOCTYPE|html)/i, "it is XML or a page of the web, and no points"],
   [/^\s*\{[^]*"dataType"\s*:\s*"(laszip|binary|zstandard)"/, "it is the index of an EPT octree; read one LAZ file of its folder ept-data, or convert it to COPC"],
   [/^\s*\{[^]*"(hierarchy|octreeDir|firstChunkSize)"/, "it is the index of a Potree octree; openOctree of hidden-point-removal/stream reads it"],

@@ -15,6 +15,11 @@ export const LONGEST_LINE = 1 << 20;
 const [LINE_FEED, RETURN] = [0x0a, 0x0d];
 const BYTE_ORDER_MARK = [0xef, 0xbb, 0xbf];
 
+/** Each byte as the character of its number. A decoder of "latin1" has other characters from 0x80 to 0x9f, but for old Node. */
+export function byteText(bytes: Uint8Array): string {
+  return Array.from(bytes, (byte) => String.fromCharCode(byte)).join("");
+}
+
 /** The text without blanks at its ends. Only ASCII blanks count, so that all encodings give the same lines. */
 export function trimmed(text: string): string {
   return text.replace(/^[ \t\v\f\r\n]+|[ \t\v\f\r\n]+$/g, "");

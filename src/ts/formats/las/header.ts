@@ -1,5 +1,6 @@
 import { FormatProblem } from "../problem.js";
 import type { NumberType } from "../numbers.js";
+import { byteText } from "../text.js";
 
 /**
  * The parts of a LAS header for the versions 1.0 to 1.4 (ASPRS, LAS Specification 1.4 R15). The copc package also has
@@ -117,9 +118,7 @@ export function lasRecords(
 }
 
 export function textAt(view: DataView, at: number, length: number): string {
-  return new TextDecoder("latin1")
-    .decode(new Uint8Array(view.buffer, view.byteOffset + at, length))
-    .replace(/\0[\s\S]*$/, "");
+  return byteText(new Uint8Array(view.buffer, view.byteOffset + at, length)).replace(/\0[\s\S]*$/, "");
 }
 
 /** Reads a point's position. The integers keep all digits, and so do doubles: UTM coordinates lose nothing. */

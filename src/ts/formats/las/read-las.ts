@@ -7,6 +7,7 @@ import { LAS_RECORD_HEADER, lasPosition } from "./header.js";
 import { moduleOf } from "../wasm.js";
 import { lasEndsEarly, lazDamaged, openLaz } from "./laz.js";
 import { type Source, viewOf } from "../source.js";
+import { byteText } from "../text.js";
 
 export const DEGREES =
   "its x and y are degrees of longitude and latitude: project them to meters first, for example to UTM";
@@ -142,7 +143,7 @@ function placesAfter({ minor }: LasDetails, head: DataView): number[] {
 async function isRecordAt(at: number, { size, read }: Source): Promise<boolean> {
   const head = await read(at, at + LAS_RECORD_HEADER.after);
   if (head.length < LAS_RECORD_HEADER.after) return false;
-  const name = new TextDecoder("latin1").decode(head.subarray(2, 18));
+  const name = byteText(head.subarray(2, 18));
   const length = Number(viewOf(head).getBigUint64(20, true));
   return /^[A-Za-z][ -~]*\0*$/.test(name) && at + head.length + length <= size;
 }
