@@ -4,8 +4,9 @@ import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { spawn } from "node:child_process";
 import { readCloud, writeCloud } from "hidden-point-removal/files";
-import { type Mesh, MeshBasicMaterial, Vector3 } from "three";
+import { Color, type Mesh, MeshBasicMaterial, SRGBColorSpace, Vector3 } from "three";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
+import { PLYLoader } from "three/addons/loaders/PLYLoader.js";
 
 import { georeferencedBall } from "../browser/clouds";
 import { glb, las } from "../browser/formats";
@@ -70,10 +71,10 @@ export async function fuzzForeign(minutes: number, seed: number): Promise<number
   return wrong;
 }
 
-/** Clouds that writeCloud has written, read by laspy and plyfile: points, colors and intensity. Returns how many differ. */
+/** Clouds that writeCloud has written, read by laspy, plyfile and three: points, colors and intensity. Returns how many differ. */
 async function written(foreign: Foreign, random: Random): Promise<number> {
   const [count, files] = [20, 120];
-  let wrong = 0;
+  let [wrong, tried] = [0, 0];
   for (let file = 0; file < files; file++) {
     const numbers = (length: number, most: number) => Array.from({ length }, () => random.below(most));
     const positions = Float64Array.from(numbers(3 * count, 2e6), (value) => value / 1000 + 5e5);
@@ -98,9 +99,11 @@ async function written(foreign: Foreign, random: Random): Promise<number> {
     const extra = { [random.of(names)]: Float64Array.from(numbers(count, 1e6), (value) => value / 7) };
     const columns = { ...(deep && Object.fromEntries(channels)), intensity, ...extra };
     const cloud = { positions, columns, ...(!deep && { colors }) };
-    for (const format of ["ply", "las"] as const) {
-      const found = await foreign.read(`${format}w`, Buffer.from(writeCloud(cloud, format)));
-      const isLas = format === "las";
+    for (const reader of ["plyw", "lasw", "three"] as const) {
+      const isLas = reader === "lasw";
+      const content = writeCloud(cloud, isLas ? "las" : "ply");
+      const found = reader === "three" ? threePly(content) : await foreign.read(reader, Buffer.from(content));
+      tried++;
       const right = Float64Array.from({ length: 7 * count }, (_, k) => {
         const [i, column] = [Math.floor(k / 7), k % 7];
         if (column < 3) return positions[3 * i + column]!;
@@ -110,14 +113,31 @@ async function written(foreign: Foreign, random: Random): Promise<number> {
       const isRight =
         "points" in found &&
         found.points.length === right.length &&
-        found.points.every((value, k) => Math.abs(value - right[k]!) <= (isLas && k % 7 < 3 ? 1e-6 : 0));
+        found.points.every((value, k) => {
+          const isLinear = reader === "three" && k % 7 >= 3 && k % 7 < 6;
+          const wanted = isLinear ? 255 * new Color().setRGB(right[k]! / 255, 0, 0, SRGBColorSpace).r : right[k]!;
+          return Math.abs(value - wanted) <= (isLinear ? 1 : isLas && k % 7 < 3 ? 1e-6 : 0);
+        });
       if (isRight) continue;
       wrong++;
-      console.log(`a ${format} file with ${Object.keys(columns).join(", ")} is written wrongly: ${shown(found)}`);
+      console.log(`a file with ${Object.keys(columns).join(", ")} is written wrongly for ${reader}: ${shown(found)}`);
     }
   }
-  console.log(`written files: ${2 * files}, ${wrong} wrong`);
+  console.log(`written files: read ${tried} times, ${wrong} wrong`);
   return wrong;
+}
+
+/** The numbers of a PLY file as three's loader reads them: its colors are linear light, in bytes. */
+function threePly(content: Uint8Array<ArrayBuffer>): Outcome {
+  const loader = new PLYLoader();
+  loader.setCustomPropertyNameMapping({ intensity: ["intensity"] });
+  const { position, color, intensity } = loader.parse(content.buffer).attributes;
+  if (!position || !color || !intensity) return { refused: "an attribute is missing" };
+  const rows = Array.from({ length: position.count }, (_, i) => {
+    const bytes = [color.getX(i), color.getY(i), color.getZ(i)].map((share) => 255 * share);
+    return [position.getX(i), position.getY(i), position.getZ(i), ...bytes, intensity.getX(i)];
+  });
+  return { points: Float64Array.from(rows.flat()) };
 }
 
 interface Tally {
