@@ -255,18 +255,32 @@ POSES = {"cameraToWorld": "camera_to_world", "worldToCamera": "world_to_camera"}
 
 
 def read_json(data: bytes, size: Size) -> list[CameraOfImage]:
-    """nerfstudio's `transforms.json`, or cameras of this package."""
+    """nerfstudio's `transforms.json`, the `cameras.json` of Gaussian splats, or cameras of this package."""
     try:
         found = json.loads(data.decode("utf-8-sig", "replace"), parse_constant=lambda name: name)
     except (ValueError, RecursionError) as problem:
         raise Problem(f"it is not JSON: {problem}") from problem
     if isinstance(found, list) or {"fx", "convention", *POSES, *POSES.values()} & found.keys():
         cameras = found if isinstance(found, list) else [found]
-        return [_own(camera, f"camera [{number}]") for number, camera in enumerate(cameras)]
+        return [_own(_of_splats(camera), f"camera [{number}]") for number, camera in enumerate(cameras)]
     frames = found.get("frames")
     if not isinstance(frames, list):
         raise Problem("frames must be an array")
     return [_frame(found, frame, f"frames[{number}]", size) for number, frame in enumerate(frames)]
+
+
+def _of_splats(given: Any) -> Any:
+    """An entry of the `cameras.json` of Gaussian splats, as a camera of this package."""
+    if not isinstance(given, dict) or "img_name" not in given:
+        return given
+    width, height, rotation, position = (given.get(name) for name in ("width", "height", "rotation", "position"))
+    rows = isinstance(rotation, list) and isinstance(position, list) and [
+        [*row, x] for row, x in zip(rotation, position) if isinstance(row, list)
+    ]
+    if not rows or not all(is_number(x) for x in (*sum(rows, []), width, height)):
+        raise Problem("a camera of splats must have width, height, a rotation of 3 rows, and a position")
+    lens = {"fx": given.get("fx"), "fy": given.get("fy"), "cx": width / 2, "cy": height / 2, "width": width, "height": height}
+    return {**lens, "image": given["img_name"], "camera_to_world": [*rows, [0, 0, 0, 1]]}
 
 
 def _own(given: Any, where: str) -> CameraOfImage:
@@ -335,7 +349,9 @@ def read_kitti(data: bytes, size: Size) -> list[CameraOfImage]:
     width, height = (usual if own is None else own for own, usual in zip(size, (1242, 375)))
     for name in sorted(found.keys() & {"P0", "P1", "P2", "P3"}):
         matrix, where = found[name]
-        (fx, _, u, x), (_, fy, v, y), (*_, z) = matrix.tolist()
+        (fx, skew, u, x), (left, fy, v, y), (*third, z) = matrix.tolist()
+        if skew != 0 or left != 0 or third != [0, 0, 1]:
+            raise Problem(f"{where} has a {name} with a skew, or a third row that is not 0 0 1, which is not read")
         moved = np.eye(4)
         moved[:3, 3] = (x - u * z) / (fx or 1), (y - v * z) / (fy or 1), z
         # The first pixel's center is at 0 there.
@@ -374,9 +390,12 @@ def read_opencv(data: bytes, size: Size) -> list[CameraOfImage]:
     matrix = numbers("camera_matrix", 9)
     if matrix is None:
         raise Problem("it has no camera_matrix")
-    where, (fx, skew, cx, _, fy, cy, *_) = fields["camera_matrix"][0], matrix
-    if skew != 0:
-        raise Problem(f"{where} has {skew:g} for the skew of camera_matrix, which must be 0")
+    where, (fx, skew, cx, left, fy, cy, *third) = fields["camera_matrix"][0], matrix
+    if skew != 0 or left != 0:
+        raise Problem(f"{where} has {skew or left:g} for the skew of camera_matrix, which must be 0")
+    if third != [0, 0, 1]:
+        row = " ".join(f"{x:g}" for x in third)
+        raise Problem(f"{where} has {row} for the third row of camera_matrix, which must be 0 0 1")
     width, height = (own[0] if (own := numbers(name, 1)) else usual for name, usual in zip(("image_width", "image_height"), size))
     if width is None or height is None:
         raise Problem("it has no image_width and image_height; give width and height")

@@ -44,6 +44,8 @@ NERF = {"w": 640, "h": 480, "fl_x": 500, "fl_y": 510.5, "k1": 0.1, "p2": 0.02, "
         "frames": [FRAME, {**FRAME, "fl_x": 400, "w": 320, "k1": 0.5}]}
 BLENDER = {"w": 800, "h": 600, "camera_angle_x": 1.5, "camera_model": "OPENCV_FISHEYE", "k4": 0.4, "frames": [FRAME]}
 OWN = [{"cameraToWorld": np.eye(4).ravel().tolist(), "fx": 5, "fy": 5, "cx": 2, "cy": 2, "width": 4, "height": 4, "image": "a.png"}]
+SPLATS = [{"id": 0, "img_name": "a.png", "width": 640, "height": 480, "position": [1, 2, 3],
+           "rotation": [[0, 0, 1], [1, 0, 0], [0, 1, 0]], "fy": 510.5, "fx": 500}]
 KITTI = """P0: 700 0 600 0 0 710 180 0 0 0 1 0
 P2: 700 0 600 35 0 710 180 -7.1 0 0 1 0.002
 R0_rect: 0.8 -0.6 0 0.6 0.8 0 0 0 1
@@ -74,6 +76,7 @@ GOOD = {
     "nerfstudio": {"transforms.json": json.dumps(NERF)},
     "blender": {"transforms.json": "\ufeff" + json.dumps(BLENDER)},
     "own": {"calib.txt": json.dumps(OWN)},
+    "splats": {"transforms.json": json.dumps(SPLATS)},
     "kitti": {"calib.txt": KITTI},
     "odometry": {"calib.txt": KITTI.replace("Tr_velo_to_cam", "Tr").replace("R0", "Q")},
     "opencv": {"camera.yml": YAML},
@@ -138,7 +141,7 @@ def test_the_same_cameras_as_the_npm_package(tmp_path):
     text, binary = (read_cameras(path) for path in paths[:2])
     assert listed(text) == listed(binary) and [image for _, image in text] == NAMES
     assert listed(read_cameras([paths[0] / "images.txt", str(paths[0] / "cameras.txt")])) == listed(text)
-    assert read_cameras(paths[5], 1224, 370)[0].camera["width"] == 1224
+    assert read_cameras(tmp_path / "kitti", 1224, 370)[0].camera["width"] == 1224
     for camera, _ in text:
         assert PointCloud([[0, 0, 9.0]]).visible_from_camera(camera).count <= 1
 
@@ -183,6 +186,8 @@ CAMERA, IMAGE = "1 PINHOLE 640 480 500 500 320 240", "1 1 0 0 0 0 0 0 1 a.jpg"
     ({"cameras.bin": CAMERAS_BIN[:30], "images.bin": IMAGES_BIN}, "byte 0 has 11 for the number of cameras"),
     ({"cameras.bin": CAMERAS_BIN, "images.bin": IMAGES_BIN + b"\0"}, f"it goes on at byte {len(IMAGES_BIN)}"),
     ({"images.bin": IMAGES_BIN}, "give both, or their folder"),
+    ({"calib.txt": KITTI.replace("P0: 700 0", "P0: 700 2")}, "line 1 has a P0 with a skew"),
+    ({"calib.txt": KITTI.replace("180 0 0 0 1 0", "180 0 0 3 1 0")}, "line 1 has a P0 with a skew, or a third row"),
     ({"transforms.json": "{ frames"}, "it is not JSON"),
     ({"transforms.json": json.dumps({**NERF, "fl_x": "500"})}, r"frames\[0\].fl_x must be a finite number, got '500'"),
     ({"transforms.json": json.dumps({**NERF, "fl_x": float("nan")})}, r"frames\[0\].fl_x must be a finite number, got 'NaN'"),

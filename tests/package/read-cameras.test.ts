@@ -251,6 +251,18 @@ describe("nerfstudio", () => {
     expect([blender[0]!.camera.fx, blender[0]!.camera.fy]).toEqual([expect.closeTo(400, 9), expect.closeTo(400, 9)]);
   });
 
+  it("cameras.json of Gaussian splats", async () => {
+    const rotation = [[0, 0, 1], [1, 0, 0], [0, 1, 0]]; // prettier-ignore
+    const splat = { id: 0, img_name: "a", width: 640, height: 480, position: [1, 2, 3], rotation, fy: 510, fx: 500 };
+    const [one] = (await read([splat])) as [CameraOfImage];
+    expect(one.image).toBe("a");
+    // Two units ahead, half a unit to the right and a quarter down, in the world's axes.
+    const [u, v] = pixel(one, [1 + 2, 2 + 0.5, 3 + 0.25]);
+    expect(u).toBeCloseTo(500 * 0.25 + 320, 3);
+    expect(v).toBeCloseTo(510 * 0.125 + 240, 3);
+    await expect(read([{ ...splat, rotation: [1, 2] }])).rejects.toThrow(/camera \[0\].*cameraToWorld/);
+  });
+
   it("fields that are wrong are refused", async () => {
     const bad: [unknown, RegExp][] = [
       [{ ...whole, frames: undefined }, /frames must be an array/],

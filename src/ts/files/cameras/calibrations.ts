@@ -160,7 +160,7 @@ type Fields = Record<string, unknown>;
 const PLAIN = ["SIMPLE_PINHOLE", "PINHOLE", "SIMPLE_RADIAL", "RADIAL", "OPENCV"];
 const FISHEYE = ["OPENCV_FISHEYE", "RADIAL_FISHEYE", "SIMPLE_RADIAL_FISHEYE"];
 
-/** A JSON file: nerfstudio's `transforms.json`, or cameras of this package. */
+/** A JSON file: nerfstudio's `transforms.json`, the `cameras.json` of Gaussian splats, or cameras of this package. */
 export async function readJson(source: Source, size: ImageSize | undefined): Promise<CameraOfImage[]> {
   const bytes = await wholeFile(source);
   let json: unknown;
@@ -169,11 +169,21 @@ export async function readJson(source: Source, size: ImageSize | undefined): Pro
   } catch (cause) {
     throw new FormatProblem(`it is not JSON: ${(cause as Error).message}`, { cause });
   }
-  if (Array.isArray(json) || isCamera(json)) return [json].flat().map(ownCamera);
+  if (Array.isArray(json) || isCamera(json)) return [json].flat().map((given, i) => ownCamera(ofSplats(given), i));
   // A frame's own numbers go before those of the file.
   const frames = isFields(json) ? json["frames"] : undefined;
   if (!Array.isArray(frames)) throw new FormatProblem(`frames must be an array, got ${describe(frames)}`);
   return frames.map((frame: unknown, i) => cameraOf(json as Fields, frame, `frames[${i}]`, size));
+}
+
+/** An entry of the `cameras.json` of Gaussian splats, as a camera of this package. */
+function ofSplats(given: unknown): unknown {
+  if (!isFields(given) || !("img_name" in given)) return given;
+  const { img_name: image, width, height, fx, fy } = given;
+  const [rotation, position] = [given["rotation"], given["position"]] as [number[][] | undefined, number[] | undefined];
+  const axes = [0, 1, 2].map((axis) => [...[0, 1, 2].map((row) => rotation?.[row]?.[axis]), 0]);
+  const cameraToWorld = [...axes.flat(), ...[0, 1, 2].map((row) => position?.[row]), 1];
+  return { image, fx, fy, cx: Number(width) / 2, cy: Number(height) / 2, width, height, cameraToWorld };
 }
 
 /** A camera as the methods take it, with the name of its image if it has one. */
