@@ -273,7 +273,8 @@ def _of_splats(given: Any) -> Any:
     """An entry of the `cameras.json` of Gaussian splats, as a camera of this package."""
     if not isinstance(given, dict) or "img_name" not in given:
         return given
-    width, height, rotation, position = (given.get(name) for name in ("width", "height", "rotation", "position"))
+    values: list[Any] = [given.get(name) for name in ("width", "height", "rotation", "position")]
+    width, height, rotation, position = values
     rows = isinstance(rotation, list) and isinstance(position, list) and [
         [*row, x] for row, x in zip(rotation, position) if isinstance(row, list)
     ]
