@@ -2,30 +2,44 @@
 //! span empty. The flat sides of a part have no points but at their rims. No distance to near
 //! neighbors tells of such a gap. Thin things, like wires, are alike: what they hide lies near.
 //!
-//! The samples follow the Hilbert curve, so each run of them is one region of the cloud.
+//! A region is the samples that are nearest to one of them. So shifts and turns change nothing.
 
-use core::ops::Range;
+use alloc::vec::Vec;
 use glam::DVec3;
 
+use crate::base::allocation::{OutOfMemory, with_capacity};
 use crate::base::real::square_root;
+use crate::base::sort::{Keyed, sort_keyed};
+use crate::cloud::statistics::SAMPLES;
 
-/// Regions, with at least as many samples in each.
-const RUNS: usize = 16;
-/// A region is cut so often into halves, always at its longest jump.
-const CUTS: usize = 3;
+/// A region has this share of the samples, and as many at least.
+const REGIONS: usize = 16;
+/// Samples around which such regions are. With fewer, the choice of samples moves the mean.
+const SEEDS: usize = 64;
 /// The emptiness above which gaps count as wider. Evenly sampled surfaces have 0.06 to 0.13. Errors
-/// against ray-traced truth change little between 0.155 and 0.175. A region also holds things that are far apart if
-/// its parts span less than this share of it. Then only the parts count.
+/// against ray-traced truth change little between 0.155 and 0.175.
 const EMPTY: f64 = 1.0 / 6.0;
-/// The largest answer.
-const WIDEST: f64 = 32.0;
+/// From this many times that emptiness on, the answer is the largest one: 2⁵.
+const EMPTIEST: f64 = 2.0;
+/// Things are far apart, and not one region, if the next sample is more than twice as far as those before it, by
+/// squares. But that many are one.
+const APART: f64 = 4.0;
+const FEWEST: usize = 8;
+/// A shell holds the squares of distances with equal exponents and first two bits. Squares have no sign.
+const SHELL: u32 = 50;
+const SHELLS: usize = 1 << (63 - SHELL);
+/// The bits of a sample's number.
+const NUMBER: u64 = SAMPLES as u64 - 1;
 
 /// Sampled points with the spacing of each.
 struct Samples<'a> {
     spacings: &'a [f64],
     /// Points with more than this spacing may be strays, which span nothing.
     longest: f64,
-    point: &'a dyn Fn(usize) -> [f64; 3],
+    /// In the longest spacing, from one of them: that keeps the detail of georeferenced clouds.
+    places: Vec<DVec3>,
+    /// Room for one number for each of them.
+    keys: Vec<Keyed>,
 }
 
 /// How many times wider the gaps are, 1 at least: (6 × emptiness)⁵. The emptiness is what a region
@@ -36,80 +50,100 @@ pub(crate) fn widening(
     longest: f64,
     count: usize,
     point: &dyn Fn(usize) -> [f64; 3],
-) -> f64 {
-    let samples = Samples {
-        spacings,
-        longest,
-        point,
-    };
+) -> Result<f64, OutOfMemory> {
     let all = spacings.len();
-    let runs = (all / RUNS).clamp(1, RUNS);
-    let mut emptiness = 0.0;
-    for run in 0..runs {
-        let [start, end] = [run * all / runs, (run + 1) * all / runs];
-        let whole = samples.span(start..end);
-        let parts = samples.parts(start..end, CUTS);
-        let spanned = if parts < EMPTY * whole.area {
-            parts
-        } else {
-            whole.area
-        };
-        emptiness += spanned / whole.stands_for;
-    }
+    let mut samples = Samples::new(spacings, longest, point)?;
+    let size = all / (all / REGIONS).clamp(1, REGIONS);
+    let seeds = SEEDS.min(all);
     let weight = count as f64 / all as f64;
-    let ratio = emptiness / (runs as f64 * weight * EMPTY);
+    let mut ratio = 0.0;
+    for number in 0..seeds {
+        let seed = (2 * number + 1) * all / (2 * seeds);
+        let span = samples.span(seed, size);
+        ratio += span.area / (EMPTY * weight * span.stands_for) / seeds as f64;
+        if ratio >= EMPTIEST {
+            ratio = EMPTIEST;
+            break;
+        }
+    }
     // It is NaN where numbers overflow, and where there is no spacing.
-    if ratio > 1.0 {
+    Ok(if ratio > 1.0 {
         let square = ratio * ratio;
-        (square * square * ratio).min(WIDEST)
+        square * square * ratio
     } else {
         1.0
-    }
+    })
 }
 
-/// A run of samples. Areas are in squares of the longest spacing.
+/// A region. Areas are in squares of the longest spacing.
 struct Span {
-    /// The area that the run spans, by its moments: the root of the sum of the principal minors
+    /// The area that it spans, by its moments: the root of the sum of the principal minors
     /// of its covariance. For a rectangle it is a twelfth of its area.
     area: f64,
     /// The area for which its points stand.
     stands_for: f64,
-    /// The sample that is farthest from the one before it.
-    cut: usize,
 }
 
-impl Samples<'_> {
-    /// The area that the parts of a run span together.
-    fn parts(&self, run: Range<usize>, cuts: usize) -> f64 {
-        let whole = self.span(run.clone());
-        if cuts == 0 {
-            return whole.area;
-        }
-        self.parts(run.start..whole.cut, cuts - 1) + self.parts(whole.cut..run.end, cuts - 1)
+impl<'a> Samples<'a> {
+    fn new(
+        spacings: &'a [f64],
+        longest: f64,
+        point: &dyn Fn(usize) -> [f64; 3],
+    ) -> Result<Self, OutOfMemory> {
+        let all = spacings.len();
+        let place = |sample| DVec3::from_array(point(sample));
+        let mut places = with_capacity(all)?;
+        places.extend((0..all).map(|sample| (place(sample) - place(0)) / longest));
+        Ok(Self {
+            spacings,
+            longest,
+            places,
+            keys: with_capacity(all)?,
+        })
     }
 
+    /// What the `size` samples span that are nearest to the sample `seed`, itself included, without things that are
+    /// far apart.
     #[inline(never)]
-    fn span(&self, run: Range<usize>) -> Span {
+    fn span(&mut self, seed: usize, size: usize) -> Span {
+        let from = self.places[seed];
+        // The square of the distance, by its bits, and in the last ones the sample's number: no two are equal.
+        let key = |(sample, place): (usize, &DVec3)| {
+            let bits = (*place - from).length_squared().to_bits();
+            (bits & !NUMBER | sample as u64, sample as u32)
+        };
+        self.keys.clear();
+        self.keys.extend(self.places.iter().enumerate().map(key));
+        // Only shells around the seed that hold enough of them are sorted.
+        let shell = |key: Keyed| (key.0 >> SHELL) as usize % SHELLS;
+        let mut inside = [0u32; SHELLS];
+        for &key in &self.keys {
+            inside[shell(key)] += 1;
+        }
+        let mut held = 0;
+        let mut last = 0;
+        while held < size {
+            held += inside[last] as usize;
+            last += 1;
+        }
+        self.keys.retain(|&key| shell(key) < last);
+        sort_keyed(&mut self.keys);
+        let nearest = &self.keys[..size];
+        let squared = |key: Keyed| f64::from_bits(key.0);
+        let is_apart = |at: &usize| squared(nearest[*at]) > APART * squared(nearest[at - 1]);
+        let end = (size.min(FEWEST)..size).find(is_apart).unwrap_or(size);
         let next = |v: DVec3| DVec3::new(v.y, v.z, v.x);
-        let mut cut = run.start;
-        // Sums relative to one of the places keep the detail of georeferenced clouds.
-        let origin = run.start;
-        let [mut sum, mut squares, mut products, mut last] = [DVec3::ZERO; 4];
-        let [mut number, mut farthest, mut stands_for] = [0.0; 3];
-        for sample in run {
+        let [mut sum, mut squares, mut products] = [DVec3::ZERO; 3];
+        let [mut number, mut stands_for] = [0.0; 2];
+        for &(_, sample) in &nearest[..end] {
+            let sample = sample as usize;
             let side = self.spacings[sample] / self.longest;
             if side > 1.0 {
                 stands_for += 1.0;
                 continue;
             }
             stands_for += side * side;
-            let from_origin = |sample| DVec3::from_array((self.point)(sample));
-            let v = (from_origin(sample) - from_origin(origin)) / self.longest;
-            let jump = (v - last).length_squared();
-            if jump > farthest {
-                (cut, farthest) = (sample, jump);
-            }
-            last = v;
+            let v = self.places[sample] - from;
             number += 1.0;
             sum += v;
             squares += v * v;
@@ -123,7 +157,6 @@ impl Samples<'_> {
             // Roundings can make it negative. It is NaN without samples.
             area: square_root(if minors > 0.0 { minors } else { 0.0 }),
             stands_for,
-            cut,
         }
     }
 }
@@ -159,12 +192,12 @@ mod tests {
         let count = (sampled * points.len() as f64) as usize;
         let far = [523_000.0, 4_657_000.0, 120.0];
         let point = |k: usize| core::array::from_fn(|i| far[i] + unit * points[k][i]);
-        widening(&spacings, unit, count, &point)
+        widening(&spacings, unit, count, &point).unwrap()
     }
 
     #[test]
     fn gaps_are_wider_where_samples_leave_what_they_span_empty() {
-        assert_eq!(widened(&rectangle(60, 40), 0.25, 1.0), 1.0);
+        assert_eq!(widened(&rectangle(50, 40), 0.25, 1.0), 1.0);
         for (side, wider) in [(5, 5.886), (6, 14.213), (7, 30.166)] {
             let near = |a: f64, b: f64| (a / b - 1.0).abs() < 1e-3;
             for unit in [0.25, 4.0] {
@@ -175,16 +208,16 @@ mod tests {
         }
         // Each region is one of these rims.
         let apart = |k: usize| move |[x, y, z]: [f64; 3]| [x, y + 100.0 * k as f64, z];
-        let rims: Vec<[f64; 3]> = (0..RUNS)
+        let rims: Vec<[f64; 3]> = (0..REGIONS)
             .flat_map(|k| rim(7).into_iter().map(apart(k)))
             .collect();
         let one = widened(&rim(7), 0.25, 1.0);
         assert!((widened(&rims, 0.25, 1.0) / one - 1.0).abs() < 1e-6);
-        assert_eq!(widened(&rim(7), 0.25, 0.9), WIDEST);
+        assert_eq!(widened(&rim(7), 0.25, 0.9), 32.0);
     }
 
     #[test]
-    fn runs_span_a_twelfth_of_a_rectangle() {
+    fn regions_span_a_twelfth_of_a_rectangle() {
         let points = rectangle(30, 20);
         let mut spacings: Vec<f64> = points.iter().map(|_| 2.0).collect();
         let two = |k: usize| {
@@ -192,29 +225,15 @@ mod tests {
             [x, y, z + 1000.0 * (k / 600) as f64]
         };
         spacings.extend_from_within(..);
-        let samples = Samples {
-            spacings: &spacings,
-            longest: 4.0,
-            point: &two,
-        };
+        let mut samples = Samples::new(&spacings, 4.0, &two).unwrap();
         let area = 30.0 * 20.0 / 12.0 / 16.0;
         let near = |a: f64, b: f64| (a / b - 1.0).abs() < 0.01;
-        let one = samples.span(600..1200);
-        assert!(
-            near(one.area, area) && near(one.stands_for, 150.0),
-            "{} {}",
-            one.area,
-            one.stands_for
-        );
-        assert_eq!(samples.span(0..1200).cut, 600);
-        assert!(near(samples.parts(0..1200, 1), 2.0 * area));
+        for seed in [0, 599, 600, 700] {
+            let span = samples.span(seed, 600);
+            assert!(near(span.area, area) && near(span.stands_for, 150.0));
+        }
         // Longer spacings than the longest stand for one square each, and their places do not count.
-        let samples = Samples {
-            spacings: &spacings,
-            longest: 1.5,
-            point: &two,
-        };
-        assert_eq!(samples.span(0..600).stands_for, 600.0);
-        assert_eq!(samples.span(0..600).area, 0.0);
+        let span = Samples::new(&spacings, 1.5, &two).unwrap().span(0, 600);
+        assert_eq!([span.stands_for, span.area], [600.0, 0.0]);
     }
 }

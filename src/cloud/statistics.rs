@@ -8,7 +8,7 @@ use alloc::vec::Vec;
 use crate::base::FULL;
 use crate::base::allocation::{OutOfMemory, filled, with_capacity};
 use crate::base::real::{larger, power_of_two_below, smaller, square_root};
-use crate::base::sort::{Keyed, sort_by_numbers, sort_keyed};
+use crate::base::sort::{Keyed, sort_by_numbers};
 use crate::cloud::neighbors::{Nearest, Neighbor, Neighbors};
 use crate::cloud::points::Points;
 use crate::cloud::spatial::Bounds;
@@ -54,23 +54,17 @@ impl Statistics {
         if n == 0 {
             return Ok(Self::default());
         }
-        // Along the curve: neighbors are near each other, and each run is one region.
-        let mut keyed: Vec<Keyed> = with_capacity(places.len())?;
-        keyed.extend(places.iter().map(|&place| (u64::from(place), place)));
-        sort_keyed(&mut keyed);
-        let mut sample: Vec<u32> = with_capacity(keyed.len())?;
-        sample.extend(keyed.iter().map(|&(_, place)| place));
-        let spacings = sampled_spacings(points, &sample)?;
+        let spacings = sampled_spacings(points, places)?;
         let spacing = surface::mean(&spacings);
         let longest = surface::longest(&spacings)?;
-        let point = |number: usize| points.get(sample[number] as usize);
+        let point = |number: usize| points.get(places[number] as usize);
         // The points of clouds of two dimensions are on curves, which fill nothing. Clouds in a plane
         // x = const or y = const are like those in a plane z = const.
         let is_flat = (0..3).any(|axis| bounds.min[axis] >= bounds.max[axis]);
         let widening = if is_flat {
             1.0
         } else {
-            filling::widening(&spacings, longest, n, &point)
+            filling::widening(&spacings, longest, n, &point)?
         };
         let spacings = surface::cut_off(spacings, longest);
         let gap = surface::gap(&spacings) * widening;

@@ -289,13 +289,18 @@ fn flat_sides_without_points_make_the_sphere_smaller() {
 #[test]
 fn surfaces_with_points_everywhere_are_taken_as_they_are() {
     let viewpoint = [1.0, 2.0, 30.0];
-    let ball = |seed| shapes::sphere(&mut Rng::new(seed), 700).into_iter();
-    // Two balls, and ten, with much nothing between them.
-    let row = |count: usize, apart: f64| -> Vec<[f64; 3]> {
+    // Balls with much nothing between them.
+    let row = |count: usize, size: usize, apart: f64| -> Vec<[f64; 3]> {
+        let ball = |seed| shapes::sphere(&mut Rng::new(seed), size).into_iter();
         let at = |k: usize| ball(k as u64).map(move |[x, y, z]| [x + apart * k as f64, y, z]);
         (0..count).flat_map(at).collect()
     };
-    for points in [row(1, 0.0), row(2, 20.0), row(2, 500.0)] {
+    for points in [
+        row(1, 700, 0.0),
+        row(2, 700, 20.0),
+        row(2, 700, 500.0),
+        row(40, 50, 30.0),
+    ] {
         let (radius, _) = automatic(&points, viewpoint);
         let expected = expected(&points, viewpoint);
         assert!(
@@ -304,7 +309,7 @@ fn surfaces_with_points_everywhere_are_taken_as_they_are() {
         );
     }
     // More than are measured.
-    let points = row(10, 30.0);
+    let points = row(10, 700, 30.0);
     let off = automatic(&points, viewpoint).0 / expected(&points, viewpoint);
     assert!((off - 1.0).abs() < 0.05, "{off}");
 }

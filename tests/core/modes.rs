@@ -282,14 +282,17 @@ fn a_cloud_that_moves_or_turns_has_the_same_views() {
     let tipped = |[x, y, z]: Place| [x, cos * y - sin * z, sin * y + cos * z];
     let mut rng = Rng::new(41);
     let mut noisy = |p: Place| p.map(|x| x + rng.between(-0.004, 0.004));
-    let shapes = [
-        sampled(&mut Rng::new(42), &shelf(), 5000),
-        sampled(&mut Rng::new(43), &table(), 1018),
-        sampled(&mut Rng::new(44), &table(), 6000)
-            .into_iter()
-            .map(&mut noisy)
-            .collect(),
+    let shape = |seed, blocks: &[Block], count| sampled(&mut Rng::new(seed), blocks, count);
+    let mut shapes = vec![
+        shape(42, &shelf(), 5000),
+        shape(43, &table(), 1018),
+        shape(44, &plates(1.5), 4000),
+        shape(45, &shelf(), 1500),
+        shape(46, &table(), 3000),
+        shape(49, &plates(3.0), 6000),
     ];
+    let noisy_ones = [shape(47, &table(), 6000), shape(48, &shelf(), 4000)];
+    shapes.extend(noisy_ones.map(|points| points.into_iter().map(&mut noisy).collect()));
     let viewpoint = [0.8, -1.9, 1.4];
     for (shape, points) in shapes.iter().enumerate() {
         let ask = |change: &dyn Fn(Place) -> Place, options: &Options| {
