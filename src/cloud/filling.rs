@@ -10,7 +10,7 @@ use glam::DVec3;
 use crate::base::allocation::{OutOfMemory, with_capacity};
 use crate::base::real::square_root;
 use crate::base::sort::{Keyed, sort_keyed};
-use crate::cloud::statistics::SAMPLES;
+use crate::cloud::surface::SAMPLES;
 
 /// A region has this share of the samples, and as many at least.
 const REGIONS: usize = 16;

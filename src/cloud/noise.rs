@@ -15,8 +15,9 @@ use crate::cloud::plane::off_plane;
 use crate::cloud::points::Points;
 use crate::cloud::quadric::off_quadric;
 use crate::cloud::sheets::{LOW, NEAR, PLACES, Sample, are_sheets, next_sheet, off_two_planes};
-use crate::cloud::statistics::{SAMPLES, mean_distance};
+use crate::cloud::statistics::mean_distance;
 use crate::cloud::surface;
+use crate::cloud::surface::SAMPLES;
 
 /// From the low percentile to the standard deviation of normal noise.
 const TO_DEVIATION: f64 = 1.15;

@@ -12,12 +12,11 @@ use crate::base::sort::{Keyed, sort_by_numbers};
 use crate::cloud::neighbors::{Nearest, Neighbor, Neighbors};
 use crate::cloud::points::Points;
 use crate::cloud::spatial::Bounds;
+use crate::cloud::surface::SAMPLES;
 use crate::cloud::{filling, surface};
 
 /// The spacing of a point is its mean distance from this many nearest points.
 pub(crate) const NEIGHBORS: usize = 6;
-/// How many points are measured; with more of them the mean hardly changes.
-pub(crate) const SAMPLES: usize = 2048;
 /// How many shells around the centroid are told apart before any point is sorted.
 const SHELLS: usize = 1 << 14;
 

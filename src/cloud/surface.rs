@@ -8,6 +8,8 @@ use alloc::vec::Vec;
 use crate::base::allocation::OutOfMemory;
 use crate::base::sort::percentile;
 
+/// How many points are measured; with more of them the mean hardly changes.
+pub(crate) const SAMPLES: usize = 2048;
 /// The percentile of the spacings at which longer ones are cut off. Otherwise a few stray points
 /// far from the surface would decide.
 const PERCENTILE: usize = 99;

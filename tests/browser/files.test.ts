@@ -173,7 +173,7 @@ const png = Uint8Array.from([0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a, 0, 
 const REFUSED: [string, Uint8Array, RegExp][] = [
   ["cut.ply", binaryPly(near, "float", true).slice(0, 3000), /cannot be read: it ends after 2\d\d of the 600 vertices/],
   ["empty.ply", new Uint8Array(), /is empty/],
-  ["picture.xyz", png, /it is not text/],
+  ["picture.xyz", png, /it is an image/],
   ["nan.ply", asciiPly([...near, 0, NaN, 0]), /has 1 of 601 points without a position/],
   ["beyond.xyz", text("0 0 0\n1 1 1e300\n"), /too far out/],
   ["cut.laz", layers.slice(0, 4000), /cannot be read: it ends before the 600 points/],

@@ -200,7 +200,7 @@ describe("missing points, wrong files and wrong usage", () => {
     [/three numbers/, ["a.ply", "-o", "b.ply", "--from", "1,2,x"]],
     [/-o OUT/, ["a.ply", "--from", "1,2,3"]],
     [/points of a\.ply are not written to \.pcd/, ["a.ply", "--from", "1,2,3", "-o", "b.pcd"]],
-    [/a\.stl is none of \.ply/, ["a.stl", "--from", "1,2,3", "-o", "b.las"]],
+    [/a\.stl is none of \.las/, ["a.stl", "--from", "1,2,3", "-o", "b.las"]],
     [/one file/, ["a.ply", "c.ply", "--from", "1,2,3", "-o", "b.ply"]],
     [/--exponent/, ["a.ply", "--from", "1,2,3", "-o", "b.ply", "--exponent", "-1"]],
     [/--exponent/, ["a.ply", "--from", "1,2,3", "-o", "b.ply", "--exponent", "best"]],

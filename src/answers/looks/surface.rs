@@ -14,7 +14,7 @@ use crate::base::beat;
 use crate::base::real::larger;
 use crate::base::sort::percentile;
 use crate::cloud::points::Points;
-use crate::cloud::statistics::SAMPLES;
+use crate::cloud::surface::SAMPLES;
 use crate::hull::{Exit, OuterFaces};
 
 /// A triangle of a surface may be longer than [`LEAST`] if most triangles are long: up to this many times the length that
