@@ -204,7 +204,7 @@ const ENDINGS = ["", ".jpg", ".jpeg", ".png", ".JPG", ".JPEG", ".PNG"];
  * The pixels of an image as they are in the file: gray ones of 8 or 16 bits, and otherwise red, green and blue. The file is
  * found in the folder by the name that the camera gives, with or without the folders in it, and the ending.
  */
-export async function readImage(folder: string, image: string): Promise<TransferImage> {
+async function readImage(folder: string, image: string): Promise<TransferImage> {
   const name = await fileOf(folder, image);
   const { default: sharp } = await import("sharp").catch((cause: unknown) => {
     throw new InputProblem("--images reads images with sharp: npm install sharp", { cause });
