@@ -270,7 +270,8 @@ impl PointCloud {
     }
 
     #[doc = asks!("visibility_map($self, viewpoint, *, points=750000, towards=None, origin=None")]
-    /// A map of directions, which tells for any number of places whether they are certainly hidden.
+    /// A map of directions, which tells for any number of places whether they are certainly hidden. It hides nothing if the
+    /// farthest point is nearer than 1e-15 units or farther than 1e15.
     ///
     /// viewpoint: 3 numbers.
     /// points: int, at least 16. So many points of the cloud are looked through at most, with `towards` three times as

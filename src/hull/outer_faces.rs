@@ -136,6 +136,12 @@ impl OuterFaces for FlippedFaces<'_> {
 }
 
 impl FlippedFaces<'_> {
+    /// Where the flip puts a vertex.
+    pub(crate) fn flipped(&self, vertex: Vertex) -> DVec3 {
+        let point = self.hull.vertices.points[vertex as usize];
+        self.flipped.get_out_of_line(point).unwrap_or_default()
+    }
+
     /// The outer face through which the ray to `place` leaves the hull, and its corners. `None` if there
     /// is none. The place is relative to the viewpoint and as far from it as the farthest point.
     pub(crate) fn exit_towards(&mut self, place: DVec3) -> Option<(FaceId, [Vertex; 3])> {

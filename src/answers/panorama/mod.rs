@@ -5,8 +5,7 @@
 //! SUMMARY  The visible points are flipped once more, so far that all of them are vertices. The outer
 //!          faces then are the Delaunay triangles of their directions. A triangle is surface if its
 //!          corners are as near to each other as samples are (`surface`). The ray of each pixel walks
-//!          to its triangle. The areas are those of the triangles, not of pixels, unless two corners of a triangle
-//!          are opposite to each other.
+//!          to its triangle. The areas are those of the triangles, not of pixels.
 
 mod surface;
 
@@ -96,11 +95,6 @@ pub(super) struct Image {
 impl Image {
     pub fn pixels(&self) -> usize {
         self.width * self.height
-    }
-
-    /// The cosine from up at the upper edge of a row.
-    pub fn cosine(&self, row: usize) -> f64 {
-        sine_cosine(PI * row as f64 / self.height as f64).1
     }
 
     /// The direction of a pixel's middle, of length 1.
@@ -218,10 +212,9 @@ impl Panorama {
         let unit = power_of_two_below((1.0 / farthest).min(f64::MAX));
         let origin = DVec3::from_array(viewpoint);
         let place = |own: u32| (DVec3::from_array(points.get(own as usize)) - origin) * unit;
-        let mut surface = Surface::of(&faces, &place)?;
-        let mut areas = surface.areas(&faces, image.up);
+        let surface = Surface::of(&faces, &place)?;
+        let areas = surface.areas(&faces, &|vertex| faces.flipped(vertex), image.up);
         for row in 0..image.height {
-            let edges = [row, row + 1].map(|edge| image.cosine(edge));
             for column in 0..image.width {
                 beat::step_at(column);
                 let direction = image.direction(row, column);
@@ -235,9 +228,6 @@ impl Panorama {
                     self.ranges[pixel] = smaller(range / unit, f64::from(f32::MAX)) as f32;
                     let indices = shown.indices_of(own as usize).iter().copied();
                     self.indices[pixel] = indices.min().unwrap_or(Panorama::SKY);
-                    if surface.in_pixels[face as usize] {
-                        areas.add_pixel(edges, image.width);
-                    }
                 }
             }
         }

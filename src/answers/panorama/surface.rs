@@ -1,13 +1,13 @@
 //! Which triangles between visible points are surface, and which are sky; and their areas.
 
 use alloc::vec::Vec;
-use core::f64::consts::{PI, TAU};
+use core::f64::consts::PI;
 
 use glam::DVec3;
 
 use crate::answers::looks::{Corners, Triangle};
 use crate::base::allocation::{OutOfMemory, filled, push};
-use crate::base::real::{larger, smaller, square_root};
+use crate::base::real::{larger, power_of_two_below, smaller, square_root};
 use crate::base::sort::percentile;
 use crate::hull::{FaceId, OuterFaces, Vertex};
 
@@ -35,8 +35,6 @@ pub(super) struct Surface {
     directions: Corners,
     /// By the number of the face.
     kinds: Vec<Kind>,
-    /// Surface whose area pixels tell, by the number of the face.
-    pub(super) in_pixels: Vec<bool>,
 }
 
 impl Surface {
@@ -54,7 +52,6 @@ impl Surface {
         let directions = Corners::of(faces, &direction, &unknown)?.smoothed()?;
         Ok(Self {
             kinds: kinds(faces, &places, &directions)?,
-            in_pixels: filled(faces.slots(), false)?,
             places,
             directions,
         })
@@ -92,13 +89,20 @@ impl Surface {
         Some((range, nearest))
     }
 
-    /// The areas of the triangles that are surface, but for those that pixels tell.
-    pub(super) fn areas(&mut self, faces: &dyn OuterFaces, up: DVec3) -> Areas {
+    /// The areas of the triangles that are surface. `flipped` gives a vertex as the hull has it.
+    pub(super) fn areas(
+        &self,
+        faces: &dyn OuterFaces,
+        flipped: &dyn Fn(Vertex) -> DVec3,
+        up: DVec3,
+    ) -> Areas {
         let mut areas = Areas::default();
         for (id, corners) in outer(faces) {
             if self.kinds[id as usize] != Kind::Sky {
-                let corners = corners.map(|vertex| self.directions.at(vertex).place);
-                self.in_pixels[id as usize] = !areas.add(corners, up);
+                let directions = corners.map(|vertex| self.directions.at(vertex).place);
+                let normal =
+                    |edge: usize| normal(flipped(corners[edge]), flipped(corners[(edge + 1) % 3]));
+                areas.add(directions, &normal, up);
             }
         }
         areas
@@ -144,31 +148,36 @@ pub(super) struct Areas {
     projected: f64,
 }
 
-/// A triangle is uncertain where both the sine and the cosine of half its area, times the same number, are below this:
-/// where two corners are opposite to each other, any great circle passes through both. So is half a sphere.
-const CERTAIN: f64 = 1e-6;
+/// Corners with a smaller cosine are opposite to each other: their rounded directions do not tell the great circle through
+/// both. Their places in the hull do.
+const OPPOSITE: f64 = -0.999;
 
 impl Areas {
-    /// Adds the area of a triangle. Returns false where rounded corners do not tell it.
-    pub(super) fn add(&mut self, corners: [DVec3; 3], up: DVec3) -> bool {
+    /// Adds the area of a triangle. `normal` gives that of the great circle through a corner and the next one.
+    fn add(&mut self, corners: [DVec3; 3], normal: &dyn Fn(usize) -> DVec3, up: DVec3) {
+        for edge in 0..3 {
+            let [a, b, c] = [0, 1, 2].map(|k| corners[(edge + k) % 3]);
+            if a.dot(b) < OPPOSITE {
+                // Cut at a third or at two thirds of the edge, where c is not opposite.
+                let along = normal(edge).cross(a) * square_root(0.75);
+                let [third, other] = [along + a * 0.5, along - a * 0.5];
+                let cut = if third.dot(c) > other.dot(c) {
+                    third
+                } else {
+                    other
+                };
+                // The edge between c and the cut is asked for no normal.
+                let own = |k: usize| normal((edge + k) % 3);
+                self.add([a, cut, c], &own, up);
+                self.add([cut, b, c], &own, up);
+                return;
+            }
+        }
         // Van Oosterom and Strackee 1983.
         let [a, b, c] = corners;
-        let sine = a.dot(b.cross(c)).abs();
         let cosine = 1.0 + a.dot(b) + b.dot(c) + c.dot(a);
-        if larger(sine, cosine) < CERTAIN {
-            return false;
-        }
-        self.solid_angle += 2.0 * libm::atan2(sine, cosine);
+        self.solid_angle += 2.0 * libm::atan2(a.dot(b.cross(c)).abs(), cosine);
         self.projected += projected(corners, up);
-        true
-    }
-
-    /// Adds a pixel of an image whose rows are between these cosines from up, the larger one first.
-    pub(super) fn add_pixel(&mut self, [high, low]: [f64; 2], columns: usize) {
-        let across = TAU / columns as f64;
-        self.solid_angle += across * (high - low);
-        let (high, low) = (larger(high, 0.0), larger(low, 0.0));
-        self.projected += 0.5 * across * (high * high - low * low);
     }
 
     /// How much of the sphere it is, in steradians.
@@ -214,4 +223,29 @@ fn edge_height(tail: DVec3, head: DVec3, up: DVec3) -> f64 {
     } else {
         0.0
     }
+}
+
+/// The direction of a × b, also where nearly all digits cancel.
+fn normal(a: DVec3, b: DVec3) -> DVec3 {
+    let [a, b] = [a, b].map(|v| v * power_of_two_below(1.0 / v.abs().max_element()));
+    let difference = |i: usize, j: usize| {
+        let (one, other) = (a[i] * b[j], a[j] * b[i]);
+        let lost = rounded_off(a[i], b[j], one) - rounded_off(a[j], b[i], other);
+        (one - other) + lost
+    };
+    let normal = DVec3::new(difference(1, 2), difference(2, 0), difference(0, 1));
+    // It may be so short that its square is 0.
+    let normal = normal * power_of_two_below(1.0 / normal.abs().max_element());
+    normal / square_root(normal.length_squared())
+}
+
+/// x·y minus its rounded product (Dekker 1971).
+fn rounded_off(x: f64, y: f64, product: f64) -> f64 {
+    let halves = |x: f64| {
+        let high = x * 134_217_729.0;
+        let high = high - (high - x);
+        (high, x - high)
+    };
+    let ((x, low_x), (y, low_y)) = (halves(x), halves(y));
+    ((x * y - product) + x * low_y + low_x * y) + low_x * low_y
 }

@@ -29,7 +29,8 @@ use crate::view::resolved::{check_viewpoint, looks};
 pub use hides::VisibilityMap;
 pub use options::MapOptions;
 
-/// Distances in a map are between the first number and the last one, in the cloud's units.
+/// A map hides nothing where its farthest point is outside of this range, in the cloud's units: squares in single precision end at
+/// 10⁻³⁸ and 10³⁸.
 const UNITS: core::ops::Range<f64> = 1e-15..1e15;
 
 impl PointCloud {
@@ -38,8 +39,8 @@ impl PointCloud {
     ///
     /// It never hides a point that [`PointCloud::visible_from`] shows with the same options, except
     /// with [`Inversion::Looks`](crate::Inversion::Looks): there it hides hardly any point that the looks
-    /// show. It shows all visible points and some hidden ones. An
-    /// [`Observer`](crate::Observer) makes further maps faster.
+    /// show. It shows all visible points and some hidden ones, and all points if the farthest one is nearer than 10⁻¹⁵ units or
+    /// farther than 10¹⁵. An [`Observer`](crate::Observer) makes further maps faster.
     ///
     /// # Errors
     /// As [`PointCloud::visible_from`]; [`Error::Excludes`] for `scores` and

@@ -136,8 +136,8 @@ export class PointCloud {
   /**
    * Makes a map of directions: it tells which points are certainly hidden from a viewpoint, in a shader
    * or here. It takes a fixed number of points, however many the cloud has. It never hides a point
-   * that {@link PointCloud.visibleFrom} shows with the same options; with `looks`, it hides what
-   * the loosest look hides. It shows all visible points and some hidden ones.
+   * that {@link PointCloud.visibleFrom} shows with the same options; with `looks`, hardly any. It shows all visible points
+   * and some hidden ones, and all points if the farthest one is nearer than 10⁻¹⁵ units or farther than 10¹⁵.
    *
    * @param viewpoint x, y, z in the cloud's units. Needs a cloud of dimension 3.
    * @throws HprError as {@link PointCloud.visibleFrom}.
