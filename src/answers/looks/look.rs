@@ -3,9 +3,8 @@
 use alloc::vec::Vec;
 use glam::DVec3;
 
-use crate::answers::looks::odds::Odds;
 use crate::answers::looks::part::Part;
-use crate::answers::looks::tuning::Tuning;
+use crate::answers::looks::tuning::{Odds, Tuning};
 use crate::base::allocation::{OutOfMemory, filled};
 use crate::base::real::square_root;
 
@@ -75,7 +74,7 @@ pub(super) struct Verdicts {
     pub of: Vec<Verdict>,
     /// Empty unless scores are asked for.
     pub scores: Vec<f32>,
-    /// How long the triangles of a surface are at most (`surface`). The first look that has
+    /// How long the triangles of a surface are at most (`decide`). The first look that has
     /// triangles finds it.
     pub longest: Option<f64>,
 }

@@ -9,21 +9,17 @@
 //!          their places, are as near to each other as samples are (`decide`). The hull's
 //!          edges show how near samples are (`corners`). A later look has only the points
 //!          that are undecided, and the triangles before them (`part`). A point that no
-//!          look decides follows its neighbors (`followers`). The looks may be taken in several steps
+//!          look decides follows its neighbors (`beside`). The looks may be taken in several steps
 //!          (`series`).
 
-mod aside;
+mod beside;
 mod corners;
 mod decide;
-mod followers;
 mod look;
-mod odds;
 mod part;
 mod rays;
 mod series;
-mod surface;
 mod survey;
-mod triangle;
 mod tuning;
 
 use alloc::vec::Vec;
@@ -31,11 +27,10 @@ use alloc::vec::Vec;
 use crate::base::allocation::filled;
 use crate::base::error::Error;
 use crate::cloud::point_cloud::PointCloud;
-pub(crate) use corners::Corners;
+pub(crate) use corners::{Corners, Triangle};
 pub(crate) use look::Seen;
 pub(crate) use rays::Projection;
 pub(crate) use series::{Depth, Question, Series, even_scales, look_of_map, looked_at};
-pub(crate) use triangle::Triangle;
 
 /// The scores of distinct points as those of the caller's indices; 0 where there is none.
 pub(crate) fn scores_of_indices(cloud: &PointCloud, scores: &[f32]) -> Result<Vec<f32>, Error> {

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::answers::looks::followers::follow;
+use crate::answers::looks::beside::follow;
 use crate::answers::looks::look::{Look, SCORES, Seen, Verdicts};
 use crate::answers::looks::part::Part;
 use crate::answers::looks::rays::Projection;
