@@ -1,9 +1,8 @@
 import { fileURLToPath } from "node:url";
 import { defineConfig } from "vite";
-import { ahead, COMMON, policy } from "./build/page-plugins.ts";
+import { ahead, COMMON, html, policy } from "./build/page-plugins.ts";
 import { docs } from "./build/docs-plugin.ts";
 import { underExamples } from "./build/examples-plugin.ts";
-import { html } from "./build/html-plugin.ts";
 import { samples } from "./build/samples-plugin.ts";
 
 const here = (path: string) => fileURLToPath(new URL(path, import.meta.url));

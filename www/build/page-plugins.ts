@@ -1,6 +1,7 @@
-import type { HtmlTagDescriptor, Plugin, Rolldown, UserConfig } from "vite";
+import { type HtmlTagDescriptor, type Plugin, type Rolldown, runnerImport, type UserConfig } from "vite";
 import { createHash } from "node:crypto";
 import { readFileSync } from "node:fs";
+import { fileURLToPath } from "node:url";
 import ts from "typescript";
 
 /** Options of Vite that the page and the element share. */
@@ -11,6 +12,21 @@ export const COMMON = {
   // The library finds its worker and its wasm beside its own files.
   optimizeDeps: { exclude: ["hidden-point-removal"] },
 } satisfies UserConfig;
+
+/** Writes into index.html how right the first picture is; each build asks again. */
+export function html(): Plugin {
+  return {
+    name: "html",
+    transformIndexHtml: {
+      order: "pre",
+      handler: async (page) => {
+        const file = fileURLToPath(new URL("verdict.ts", import.meta.url));
+        const { module } = await runnerImport<typeof import("./verdict.ts")>(file);
+        return page.replace("<span data-verdict>", (tag) => tag + module.verdict);
+      },
+    },
+  };
+}
 
 /** The files that every first picture needs. The page's own script asks for them late. */
 const SCRIPT = "assets/session-";

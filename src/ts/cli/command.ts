@@ -4,13 +4,13 @@ import { readFileSync } from "node:fs";
 import { HprError } from "../base/errors.js";
 import { init } from "../index.js";
 import { printable } from "../formats/problem.js";
-import { type Answer, ask, farNote, type Question } from "./ask.js";
+import { type Answer, ask, type Question } from "./ask.js";
 import { HELP, NAME, readArguments, type Settings } from "./arguments.js";
 import { coloredPly, converted, lost, type PointFile, pointsCopied, readPoints, writtenAs } from "./formats.js";
 import { readAs, writeWhole } from "./files.js";
 import { colmapVis } from "../files/cameras/colmap.js";
 import { checkOutputs, isNumpy, numbersWritten } from "./outputs.js";
-import { camerasIn, holdsCameras, viewpointsIn } from "./places.js";
+import { camerasIn, farNote, holdsCameras, viewpointsIn } from "./places.js";
 import { Progress, type Screen } from "./progress.js";
 import { UsageProblem } from "./values.js";
 
@@ -58,7 +58,7 @@ async function filter(settings: Settings, progress: Progress, say: (line: string
     progress.show(0.2, "understanding");
     return readPoints(input, bytes, { chosen: columns, damaged });
   });
-  const note = farNote(file.positions, question);
+  const note = farNote(file.positions, question.seats);
   if (note !== undefined) {
     progress.done();
     say(note);

@@ -3,8 +3,7 @@ import type { CloudFile, Reading } from "./cloud-file.js";
 import { isOutOfRange, numberIn } from "./numbers.js";
 import { FormatProblem, lineProblem } from "./problem.js";
 import { step } from "./read-rows.js";
-import { lines } from "./source.js";
-import { textOf } from "./text-source.js";
+import { lines, textOf } from "./source.js";
 import { trimmed, wordsOf } from "./text.js";
 
 /** The vertices of an OBJ file (“v x y z”, in some files with a color after them). Its faces are ignored. */

@@ -3,8 +3,7 @@ import { type CloudFile, type FileStation, type Place, type Reading, SCAN, scanC
 import { Contradictions, endsEarly, FormatProblem, lineProblem } from "./problem.js";
 import { countIn, fitsType, isOutOfRange, numberIn } from "./numbers.js";
 import { step } from "./read-rows.js";
-import { lines } from "./source.js";
-import { textOf } from "./text-source.js";
+import { lines, textOf } from "./source.js";
 import { trimmed, wordsOf } from "./text.js";
 
 /** The lines above the points of a scan: columns, rows, the place and the axes of the scanner, and a matrix of four rows. */

@@ -3,10 +3,9 @@ import type { CloudFile, Reading } from "./cloud-file.js";
 import { Contradictions, lineProblem } from "./problem.js";
 import { isOutOfRange } from "./numbers.js";
 import { step } from "./read-rows.js";
-import { lines } from "./source.js";
+import { lines, textOf } from "./source.js";
 import { cell } from "./table-words.js";
 import { columnsSaid, isByte, isPlain, type Layout, rowsIn, TableRows } from "./table.js";
-import { textOf } from "./text-source.js";
 
 /** A column besides x, y and z. */
 interface Other {

@@ -1,5 +1,5 @@
 import { FormatProblem } from "./problem.js";
-import { LONGEST_LINE, markLength, tooLong } from "./text.js";
+import { LONGEST_LINE, looksBinary, markLength, tooLong } from "./text.js";
 
 /** The bytes of a file, wherever they are. */
 export interface Source {
@@ -178,4 +178,23 @@ async function* unpackedParts(source: Source): AsyncGenerator<Uint8Array<ArrayBu
 async function feed(source: Source, writer: WritableStreamDefaultWriter<Uint8Array<ArrayBuffer>>): Promise<void> {
   for await (const block of blocks(source, 0)) await writer.write(block);
   await writer.close();
+}
+
+/** The text of a file in UTF-8. Some spreadsheets export text with two bytes for each character. */
+export async function textOf({ source, records }: { source: Source; records?: boolean | undefined }): Promise<Source> {
+  const start = await source.read(0, 4096);
+  const encoding = encodingOf(start);
+  if (encoding === "utf-8") {
+    if (looksBinary(start)) throw new FormatProblem("it is not text");
+    return source;
+  }
+  // The bytes of points cannot be taken from text in another encoding.
+  if (records) throw new FormatProblem("it is text in UTF-16; save it in UTF-8");
+  return bytesSource(new TextEncoder().encode(new TextDecoder(encoding).decode(await wholeFile(source))));
+}
+
+/** The encoding by the byte order mark. */
+function encodingOf([first, second]: Uint8Array): "utf-8" | "utf-16le" | "utf-16be" {
+  if (first === 0xff && second === 0xfe) return "utf-16le";
+  return first === 0xfe && second === 0xff ? "utf-16be" : "utf-8";
 }
