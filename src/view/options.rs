@@ -63,48 +63,83 @@ pub enum Exponential {
     Scale(f64),
 }
 
-/// The options of one visibility query. Each has a field, and a method that sets it.
-///
-/// ```
-/// use hidden_point_removal::{Options, Radius};
-///
-/// let options = Options::looks(3).with_scores(true);
-/// assert!(options.scores && options.within.is_none());
-/// assert_eq!(Options::exponent(3.0), Options::default().with_radius(Radius::Exponent(3.0)));
-/// ```
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[non_exhaustive]
-pub struct Options {
+/// Makes [`Options`]. Each row gives a field, a method that sets it, and how [`Options::set`] reads it: by its type.
+macro_rules! options {
+    ($($(#[$doc:meta])* pub $name:ident: $type:ty, set by $setter:ident($given:ty);)*) => {
+        /// The options of one visibility query. Each has a field, and a method that sets it.
+        ///
+        /// ```
+        /// use hidden_point_removal::{Options, Radius};
+        ///
+        /// let options = Options::looks(3).with_scores(true);
+        /// assert!(options.scores && options.within.is_none());
+        /// assert_eq!(Options::exponent(3.0), Options::default().with_radius(Radius::Exponent(3.0)));
+        /// ```
+        #[derive(Clone, Copy, Debug, Default, PartialEq)]
+        #[non_exhaustive]
+        pub struct Options {
+            $($(#[$doc])* pub $name: $type,)*
+        }
+
+        impl Options {
+            $(
+                #[doc = concat!("Sets [`Options::", stringify!($name), "`](field@Self::", stringify!($name), ").")]
+                #[must_use]
+                pub fn $setter(self, $name: $given) -> Self {
+                    Self { $name: $name.into(), ..self }
+                }
+            )*
+
+            /// Sets an option by its name in `src/options.json`. Returns whether it takes such a value. For bindings.
+            #[doc(hidden)]
+            #[must_use]
+            pub fn set(&mut self, name: &str, value: Given<'_>) -> bool {
+                match name {
+                    $(stringify!($name) => self.$name.read(value),)*
+                    _ => self.set_other(name, value),
+                }
+            }
+        }
+    };
+}
+
+options! {
     /// How R is chosen. With [`Inversion::Power`] it may only be [`Radius::Auto`] or
     /// [`Radius::Absolute`], with [`Inversion::Exponential`] only [`Radius::Auto`].
-    pub radius: Radius,
+    pub radius: Radius, set by with_radius(Radius);
+
     /// How points are flipped.
-    pub inversion: Inversion,
+    pub inversion: Inversion, set by with_inversion(Inversion);
+
     /// Whether the answer also holds scores, which show how sure it is:
     /// [`Visibility::scores`](crate::Visibility::scores). Scores need [`Inversion::Looks`] and a
     /// single viewpoint.
-    pub scores: bool,
+    pub scores: bool, set by with_scores(bool);
+
     /// With [`Inversion::Looks`]: how far behind the surface before it a point may lie and still be
     /// seen, in the cloud's units; at least 0. Without a number it follows from the cloud's noise
     /// ([`PointCloud::noise`](crate::PointCloud::noise)), and noise that is the same everywhere is
     /// removed before the view. 0 stands for a surface without thickness.
-    pub thickness: Option<f64>,
+    pub thickness: Option<f64>, set by with_thickness(impl Into<Option<f64>>);
+
     /// With [`Inversion::Looks`]: what the cloud is. By default it is what
     /// [`PointCloud::surface`](crate::PointCloud::surface) finds; with a number as thickness, points do not move.
-    pub surface: Option<Surface>,
+    pub surface: Option<Surface>, set by with_surface(impl Into<Option<Surface>>);
+
     /// Only these points take part: those near the viewpoint, or in a box. The answer is the same
     /// as that of a cloud of these points alone, with its own spacing and farthest distance. It is
     /// followed before all other options. Where there are several viewpoints or lights, each has
     /// its own points. A mask chooses points by index: [`PointCloud::masked`].
     ///
     /// [`PointCloud::masked`]: crate::PointCloud::masked
-    pub within: Option<Within>,
+    pub within: Option<Within>, set by with_within(impl Into<Option<Within>>);
+
     /// How many threads compute, at most 256; 0 and 1 are the caller's alone. They change no bit of an answer.
     /// Several viewpoints are shared among the threads. If there are fewer viewpoints than threads, each view is divided
     /// by direction. This needs spherical flipping with an exponent below 8, and gains little below 200,000 points. While
     /// a question is answered, each thread takes about 150 bytes for each visible point of its share, and one byte for
     /// each point. One thread answers all other questions, and all without the feature `std`.
-    pub threads: usize,
+    pub threads: usize, set by with_threads(usize);
 }
 
 /// A value of an option as another language gives it: [`Options::set`].
@@ -145,120 +180,108 @@ impl Options {
         }
     }
 
-    /// Sets an option by its name in `src/options.json`. Returns whether it takes such a value. For bindings.
-    #[doc(hidden)]
-    #[must_use]
-    pub fn set(&mut self, name: &str, value: Given<'_>) -> bool {
-        use Given::{Entry, Number, Truth, Word};
+    /// Sets what has no field of its own.
+    fn set_other(&mut self, name: &str, value: Given<'_>) -> bool {
         match (name, value) {
-            ("radius", Word("auto")) => self.radius = Radius::Auto,
-            ("radius", Word("opposite")) => self.radius = Radius::Opposite,
-            ("radius", Number(radius)) => self.radius = Radius::Absolute(radius),
-            ("exponent", Number(exponent)) => self.radius = Radius::Exponent(exponent),
-            ("inversion", Word("spherical")) => self.inversion = Inversion::Spherical,
-            ("inversion", Entry("power", &Number(power))) => {
-                self.inversion = Inversion::Power(power);
-            }
-            ("inversion", Entry("exponential", Word("auto"))) => {
-                self.inversion = Inversion::Exponential(Exponential::Auto);
-            }
-            ("inversion", Entry("exponential", &Number(scale))) => {
-                self.inversion = Inversion::Exponential(Exponential::Scale(scale));
-            }
-            ("looks", Number(count)) if count >= 0.0 && count as usize as f64 == count => {
+            ("exponent", Given::Number(exponent)) => self.radius = Radius::Exponent(exponent),
+            ("looks", Given::Number(count)) if count >= 0.0 && count as usize as f64 == count => {
                 self.inversion = Inversion::Looks(count as usize);
-            }
-            ("scores", Truth(scores)) => self.scores = scores,
-            ("thickness", Word("auto")) => self.thickness = None,
-            ("thickness", Number(thickness)) => self.thickness = Some(thickness),
-            ("surface", Word("auto")) => self.surface = None,
-            ("surface", Word(word)) => {
-                match Surface::ALL.into_iter().find(|own| own.name() == word) {
-                    None => return false,
-                    found => self.surface = found,
-                }
             }
             _ => return false,
         }
         true
     }
 
-    const DEFAULT: Self = Self {
-        radius: Radius::Auto,
-        inversion: Inversion::Spherical,
-        scores: false,
-        thickness: None,
-        surface: None,
-        within: None,
-        threads: 0,
-    };
-
     /// Options with R given in the cloud's units.
     #[must_use]
-    pub const fn radius(radius: f64) -> Self {
-        Self::DEFAULT.with_radius(Radius::Absolute(radius))
+    pub fn radius(radius: f64) -> Self {
+        Self::default().with_radius(Radius::Absolute(radius))
     }
 
     /// Options with R = farthest distance · 10^exponent.
     #[must_use]
-    pub const fn exponent(exponent: f64) -> Self {
-        Self::DEFAULT.with_radius(Radius::Exponent(exponent))
+    pub fn exponent(exponent: f64) -> Self {
+        Self::default().with_radius(Radius::Exponent(exponent))
     }
 
     /// Options with another inversion than the spherical one.
     #[must_use]
-    pub const fn inversion(inversion: Inversion) -> Self {
-        Self::DEFAULT.with_inversion(inversion)
+    pub fn inversion(inversion: Inversion) -> Self {
+        Self::default().with_inversion(inversion)
     }
 
     /// Options with 2 or 3 looks: [`Inversion::Looks`].
     #[must_use]
-    pub const fn looks(count: usize) -> Self {
+    pub fn looks(count: usize) -> Self {
         Self::inversion(Inversion::Looks(count))
     }
+}
 
-    /// Sets [`Options::radius`](field@Self::radius).
-    #[must_use]
-    pub const fn with_radius(self, radius: Radius) -> Self {
-        Self { radius, ..self }
-    }
-
-    /// Sets [`Options::inversion`](field@Self::inversion).
-    #[must_use]
-    pub const fn with_inversion(self, inversion: Inversion) -> Self {
-        Self { inversion, ..self }
-    }
-
-    /// Sets [`Options::scores`](field@Self::scores).
-    #[must_use]
-    pub const fn with_scores(self, scores: bool) -> Self {
-        Self { scores, ..self }
-    }
-
-    /// Sets [`Options::thickness`](field@Self::thickness), to a number or to none.
-    #[must_use]
-    pub fn with_thickness(self, thickness: impl Into<Option<f64>>) -> Self {
-        let thickness = thickness.into();
-        Self { thickness, ..self }
-    }
-
-    /// Sets [`Options::surface`](field@Self::surface).
-    #[must_use]
-    pub fn with_surface(self, surface: impl Into<Option<Surface>>) -> Self {
-        let surface = surface.into();
-        Self { surface, ..self }
-    }
-
-    /// Sets [`Options::within`](field@Self::within), to a choice or to none.
-    #[must_use]
-    pub fn with_within(self, within: impl Into<Option<Within>>) -> Self {
-        let within = within.into();
-        Self { within, ..self }
-    }
-
-    /// Sets [`Options::threads`](field@Self::threads).
-    #[must_use]
-    pub const fn with_threads(self, threads: usize) -> Self {
-        Self { threads, ..self }
+/// A type that some option has.
+trait Value {
+    /// Reads a value from another language, and returns whether it is of this type.
+    fn read(&mut self, _: Given<'_>) -> bool {
+        false
     }
 }
+
+impl Value for bool {
+    fn read(&mut self, given: Given<'_>) -> bool {
+        let Given::Truth(truth) = given else {
+            return false;
+        };
+        *self = truth;
+        true
+    }
+}
+
+impl Value for Option<f64> {
+    fn read(&mut self, given: Given<'_>) -> bool {
+        *self = match given {
+            Given::Word("auto") => None,
+            Given::Number(number) => Some(number),
+            _ => return false,
+        };
+        true
+    }
+}
+
+impl Value for Option<Surface> {
+    fn read(&mut self, given: Given<'_>) -> bool {
+        let Given::Word(word) = given else {
+            return false;
+        };
+        *self = Surface::ALL.into_iter().find(|own| own.name() == word);
+        self.is_some() || word == "auto"
+    }
+}
+
+impl Value for Radius {
+    fn read(&mut self, given: Given<'_>) -> bool {
+        *self = match given {
+            Given::Word("auto") => Self::Auto,
+            Given::Word("opposite") => Self::Opposite,
+            Given::Number(radius) => Self::Absolute(radius),
+            _ => return false,
+        };
+        true
+    }
+}
+
+impl Value for Inversion {
+    fn read(&mut self, given: Given<'_>) -> bool {
+        use Given::{Entry, Number, Word};
+        *self = match given {
+            Word("spherical") => Self::Spherical,
+            Entry("power", &Number(power)) => Self::Power(power),
+            Entry("exponential", Word("auto")) => Self::Exponential(Exponential::Auto),
+            Entry("exponential", &Number(scale)) => Self::Exponential(Exponential::Scale(scale)),
+            _ => return false,
+        };
+        true
+    }
+}
+
+// Bindings read these two themselves.
+impl Value for Option<Within> {}
+impl Value for usize {}

@@ -6,7 +6,9 @@ use crate::common::rng::Rng;
 use crate::common::scanner::{Hall, Measured, Place, Scanner, fused};
 use crate::test;
 
-const LOOKS: Options = Options::looks(3);
+fn looks() -> Options {
+    Options::looks(3)
+}
 const LASER: Scanner = Scanner {
     rings: 90,
     columns: 360,
@@ -56,8 +58,8 @@ fn a_scanner_sees_its_own_points() {
     for (name, scanner) in [("laser", LASER), ("spinning", SPINNING)] {
         let station = [0.0, -0.5, 0.0];
         let points = scanner.scan(station, &mut Rng::new(1));
-        let [now, _, _] = wrong(&points, station, &LOOKS);
-        let [before, _, _] = wrong(&points, station, &LOOKS.with_thickness(0.0));
+        let [now, _, _] = wrong(&points, station, &looks());
+        let [before, _, _] = wrong(&points, station, &looks().with_thickness(0.0));
         assert!(now < 1.0 && now < before, "{name}: {now} {before}");
     }
 }
@@ -71,7 +73,7 @@ fn leave(points: &[Measured], station: Place, axis: usize, steps: i32) -> [f64; 
     for step in 0..=steps {
         let mut viewpoint = station;
         viewpoint[axis] += 0.1 * f64::from(step);
-        let seen = cloud.visible_from(viewpoint, &LOOKS).unwrap().mask();
+        let seen = cloud.visible_from(viewpoint, &looks()).unwrap().mask();
         if let Some(before) = before {
             let changed = before.iter().zip(&seen).filter(|(a, b)| a != b).count();
             most = f64::max(most, 100.0 * changed as f64 / seen.len() as f64);
@@ -114,8 +116,8 @@ fn registered_scans_are_one_surface() {
         }
         let points = fused(points, voxel);
         let viewpoint = [1.2, -2.0, 0.4];
-        let [now, shown, lost] = wrong(&points, viewpoint, &LOOKS);
-        let [before, _, _] = wrong(&points, viewpoint, &LOOKS.with_thickness(0.0));
+        let [now, shown, lost] = wrong(&points, viewpoint, &looks());
+        let [before, _, _] = wrong(&points, viewpoint, &looks().with_thickness(0.0));
         assert!(
             now < 3.0 && shown < 9.0 && lost < 3.0,
             "{voxel}: {shown} {lost}"

@@ -8,10 +8,12 @@ use crate::test;
 
 type Place = [f64; 3];
 
-const LOOKS: Options = Options::looks(3);
+fn looks() -> Options {
+    Options::looks(3)
+}
 
 fn thick(thickness: f64) -> Options {
-    LOOKS.with_thickness(thickness)
+    looks().with_thickness(thickness)
 }
 
 /// A normal number, as a sum of uniform ones.
@@ -61,7 +63,7 @@ fn a_sphere_with_noise_is_seen_like_a_clean_one() {
     ] {
         let cloud = PointCloud::new(&sphere(count, noise * spacing)).unwrap();
         let is_visible = |i: usize| dot(clean[i]) > 1.0;
-        let seen = cloud.visible_from(viewpoint, &LOOKS).unwrap();
+        let seen = cloud.visible_from(viewpoint, &looks()).unwrap();
         let [lost, shown] = wrong(&seen, &is_visible);
         assert!(lost <= 3.0 && shown <= 3.0, "noise {noise}: {lost} {shown}");
         let plain = cloud.visible_from(viewpoint, &thick(0.0)).unwrap();
@@ -85,7 +87,7 @@ fn strays_in_front_of_a_surface_hide_little() {
     }));
     let viewpoint = [0.3, -0.4, 3.0];
     let seen = PointCloud::new(&points).unwrap();
-    let seen = seen.visible_from(viewpoint, &LOOKS).unwrap().mask();
+    let seen = seen.visible_from(viewpoint, &looks()).unwrap().mask();
     let faces = |p: Place| p[0] * viewpoint[0] + p[1] * viewpoint[1] + p[2] * viewpoint[2] > 1.0;
     let front = (0..count).filter(|&i| faces(clean[i]));
     let [lost, all] = front.fold([0, 0], |[lost, all], i| {
@@ -135,7 +137,7 @@ fn layers_of_registered_scans_are_one_surface() {
         wrong(&seen, &|i| is_visible[i])
     };
     let [lost_before, _] = of(&thick(0.0));
-    let [lost, shown] = of(&LOOKS);
+    let [lost, shown] = of(&looks());
     assert!(lost_before > 20.0, "{lost_before}");
     assert!(lost < 0.3 * lost_before && shown < 3.0, "{lost} {shown}");
     // A given thickness takes the place of the measured one.
@@ -177,11 +179,11 @@ fn a_scanner_sees_its_own_points() {
         let seen = cloud.visible_from([0.0; 3], options).unwrap();
         wrong(&seen, &|_| true)[0]
     };
-    let [before, now] = [lost(&thick(0.0)), lost(&LOOKS)];
+    let [before, now] = [lost(&thick(0.0)), lost(&looks())];
     assert!(now < 2.0 && before > 3.0 * now, "{before} {now}");
     // From far away the same cloud is a surface like others.
     let outside = [40.0, -30.0, 25.0];
-    let [plain, thick] = [thick(0.0), LOOKS].map(|options| {
+    let [plain, thick] = [thick(0.0), looks()].map(|options| {
         let seen = cloud.visible_from(outside, &options).unwrap();
         seen.into_indices()
     });
@@ -215,7 +217,7 @@ fn nothing_changes_where_nothing_tells_of_noise() {
         let cloud = PointCloud::new(&points).unwrap();
         assert_eq!(cloud.noise(), Ok(0.0), "{name}");
         let viewpoint = [3.0, -7.0, 11.0];
-        let seen = cloud.visible_from(viewpoint, &LOOKS).unwrap();
+        let seen = cloud.visible_from(viewpoint, &looks()).unwrap();
         assert_eq!(
             seen,
             cloud.visible_from(viewpoint, &thick(0.0)).unwrap(),
@@ -245,7 +247,7 @@ fn noise_is_finite_for_any_cloud() {
         let cloud = PointCloud::new(points).unwrap();
         let noise = cloud.noise().unwrap();
         assert!((0.0..f64::INFINITY).contains(&noise), "{number}: {noise}");
-        let seen = cloud.visible_from([0.1, 0.2, 0.3], &LOOKS).unwrap();
+        let seen = cloud.visible_from([0.1, 0.2, 0.3], &looks()).unwrap();
         assert!(seen.looks().iter().all(|c| *c > 0.0 && c.is_finite()));
     }
 }
@@ -256,7 +258,7 @@ fn neither_order_nor_duplicates_nor_slices_nor_scale_change_a_bit() {
     let (layers, _) = room(5);
     for points in [layers, sphere(6000, 0.02), scan()] {
         let cloud = PointCloud::new(&points).unwrap();
-        let options = LOOKS.with_scores(true);
+        let options = looks().with_scores(true);
         let viewpoint = [0.0, 0.0, 0.1];
         let seen = cloud.visible_from(viewpoint, &options).unwrap();
 
@@ -289,7 +291,7 @@ fn neither_order_nor_duplicates_nor_slices_nor_scale_change_a_bit() {
         // Another viewpoint, and the same again.
         observer.visible_from([0.2, 0.1, 0.1], &options).unwrap();
         assert_eq!(observer.visible_from(viewpoint, &options).unwrap(), seen);
-        let any = cloud.visible_from_any(&[viewpoint], &LOOKS).unwrap();
+        let any = cloud.visible_from_any(&[viewpoint], &looks()).unwrap();
         assert_eq!(any.indices(), seen.indices());
     }
 }
@@ -300,9 +302,9 @@ fn a_direction_sees_noise_as_far_viewpoints_do() {
     let cloud = PointCloud::new(&points).unwrap();
     for points in [&cloud, &PointCloud::new(&sphere(6000, 0.01)).unwrap()] {
         let along = points
-            .visible_from_direction([0.0, 0.0, 1.0], &LOOKS)
+            .visible_from_direction([0.0, 0.0, 1.0], &looks())
             .unwrap();
-        let far = points.visible_from([0.0, 0.0, -1e5], &LOOKS).unwrap();
+        let far = points.visible_from([0.0, 0.0, -1e5], &looks()).unwrap();
         let [along, far] = [along.mask(), far.mask()];
         let differ = along.iter().zip(&far).filter(|(a, b)| a != b);
         assert!(differ.count() < points.len() / 200);

@@ -10,7 +10,9 @@ type Place = [f64; 3];
 /// The lowest and the highest corner.
 type Block = [Place; 2];
 
-const LOOKS: Options = Options::looks(3);
+fn looks() -> Options {
+    Options::looks(3)
+}
 
 /// Where a ray crosses the sides of a block, as shares of `v`.
 fn crossings([low, high]: &Block, from: Place, v: Place) -> Option<[f64; 2]> {
@@ -137,7 +139,7 @@ fn thin_shapes_are_clean_and_hide_what_is_behind_them() {
             if count != 8192 {
                 continue;
             }
-            for (options, worst) in [(Options::default(), worst), (LOOKS, worst_of_looks)] {
+            for (options, worst) in [(Options::default(), worst), (looks(), worst_of_looks)] {
                 let [shown, lost] = shares(&points, &points, &blocks, &around(2.5), &options);
                 assert!(
                     shown <= worst[0] && lost <= worst[1],
@@ -238,12 +240,12 @@ fn registered_scans_are_layered_and_keep_what_is_visible() {
     assert_ne!(cloud.surface().unwrap(), Surface::Clean);
     assert!(cloud.noise().unwrap() > 0.002);
     let viewpoints = [[0.3, 0.2, 1.5], [-1.5, -1.0, 1.2], [1.5, 1.0, 1.7]];
-    let [shown, lost] = shares(&points, &places, &blocks, &viewpoints, &LOOKS);
+    let [shown, lost] = shares(&points, &places, &blocks, &viewpoints, &looks());
     assert!(
         shown <= 30.0 && lost <= 10.0,
         "{shown} % shown, {lost} % lost"
     );
-    let clean = LOOKS.with_surface(Surface::Clean);
+    let clean = looks().with_surface(Surface::Clean);
     let [_, lost_as_clean] = shares(&points, &places, &blocks, &viewpoints, &clean);
     assert!(
         lost_as_clean > 2.0 * lost,
@@ -270,7 +272,7 @@ fn a_rough_scan_in_voxels_is_seen_from_its_own_station() {
     let points: Vec<Place> = all.iter().map(|pair| pair[0]).collect();
     let cloud = PointCloud::new(&points).unwrap();
     assert_eq!(cloud.surface().unwrap(), Surface::Layered);
-    let seen = cloud.visible_from(station, &LOOKS).unwrap();
+    let seen = cloud.visible_from(station, &looks()).unwrap();
     let lost = 100.0 * (1.0 - seen.indices().len() as f64 / points.len() as f64);
     assert!(lost <= 12.0, "{lost} % lost");
 }
@@ -301,7 +303,7 @@ fn a_cloud_that_moves_or_turns_has_the_same_views() {
             let seen = cloud.visible_from(change(viewpoint), options).unwrap();
             (seen.radius(), seen.mask())
         };
-        for options in [Options::default(), LOOKS] {
+        for options in [Options::default(), looks()] {
             let (radius, mask) = ask(&|p| p, &options);
             let changes: [(f64, &dyn Fn(Place) -> Place); 5] = [
                 (1.0, &|p| p.map(|x| x + 1.0)),
