@@ -5,7 +5,8 @@ use hidden_point_removal::{
     TransferOptions, Transferred, Values, Weights,
 };
 
-use crate::common::cameras::camera;
+use crate::common::cameras::{LENSES, camera, matrix, shown};
+use crate::common::flip::distance;
 use crate::common::refused;
 use crate::common::rng::Rng;
 use crate::common::shapes;
@@ -68,89 +69,135 @@ fn merged(merge: Merge, seen: &[(f64, f64)]) -> f64 {
     }
 }
 
+/// What a camera gives a point: one value, a label and a weight.
+type Seen = (f64, f64, f64);
+
+/// The values of images at the visible points, from the formulas alone. Also the points where rounding decides.
+fn by_definition(
+    cloud: &PointCloud,
+    points: &[[f64; 3]],
+    cameras: &[Camera],
+    images: &[Vec<f32>],
+    options: &Options,
+    how: &TransferOptions,
+) -> (Vec<Vec<Seen>>, Vec<bool>) {
+    let mut seen = vec![Vec::new(); points.len()];
+    let mut in_doubt = vec![false; points.len()];
+    for (camera, image) in cameras.iter().zip(images) {
+        let options = options.with_scores(how.weights == Weights::Score);
+        let view = cloud.visible_from(camera.position(), &options).unwrap();
+        for &index in view.indices() {
+            let point = points[index as usize];
+            let at = shown(camera, point);
+            let [u, v] = at.pixel;
+            let is_between = [u, v].iter().any(|x| (x - x.round()).abs() < 1e-4);
+            in_doubt[index as usize] |= at.in_doubt || is_between;
+            if !at.inside {
+                continue;
+            }
+            let (width, height) = (camera.width as usize, camera.height as usize);
+            let pixel = |x: f64, y: f64| {
+                let inside = |x: f64, end: usize| x.clamp(0.0, end as f64 - 1.0) as usize;
+                let at = 2 * (inside(y, height) * width + inside(x, width));
+                (f64::from(image[at]), f64::from(image[at + 1]))
+            };
+            let (first, second) = match how.sampling {
+                Sampling::Nearest => pixel(u.floor(), v.floor()),
+                Sampling::Bilinear => {
+                    let (left, up) = ((u - 0.5).floor(), (v - 0.5).floor());
+                    let (x, y) = (u - 0.5 - left, v - 0.5 - up);
+                    let row = |y: f64| (1.0 - x) * pixel(left, y).0 + x * pixel(left + 1.0, y).0;
+                    ((1.0 - y) * row(up) + y * row(up + 1.0), 0.0)
+                }
+            };
+            let weight = match how.weights {
+                Weights::Equal => 1.0,
+                Weights::Distance => 1.0 / (at.depth * at.depth),
+                Weights::Angle => at.depth / distance(point, camera.position()),
+                Weights::Score => view.scores()[index as usize].into(),
+            };
+            seen[index as usize].push((first, first + 5.0 * second, weight));
+        }
+    }
+    (seen, in_doubt)
+}
+
 #[test]
 fn each_point_has_the_merged_value_of_the_cameras_that_see_it() {
     let mut rng = Rng::new(5);
-    let points = shapes::bumpy(&mut rng, 700);
-    let cloud = PointCloud::new(&points).unwrap();
-    let options = Options::looks(3);
-    let cameras: Vec<Camera> = (0..6)
-        .map(|_| {
-            let place = rng.direction().map(|x| x * 3.0);
-            let mut own = camera(&mut rng, place, place.map(|x| -x), Convention::OpenCv);
-            [own.width, own.height] = [16.0, 12.0];
-            [own.fx, own.fy, own.cx, own.cy] = [14.0, 14.0, 8.0, 6.0];
-            own
-        })
-        .collect();
-    let images: Vec<Vec<f32>> = (0..6)
-        .map(|_| (0..2 * 16 * 12).map(|_| rng.below(5) as f32).collect())
-        .collect();
-    for merge in [Merge::Mean, Merge::Median, Merge::Vote, Merge::Best] {
-        for weights in [
-            Weights::Equal,
-            Weights::Distance,
-            Weights::Angle,
-            Weights::Score,
-        ] {
-            let how = TransferOptions {
-                merge,
-                weights,
-                sampling: Sampling::Nearest,
-            };
-            let given = images.iter().map(|image| Image {
-                pixels: Pixels::Singles(image),
-                channels: 2,
-            });
-            let found = cloud.transfer(&cameras, given, &options, &how).unwrap();
-            let mut seen = vec![Vec::new(); points.len()];
-            let scored = options.with_scores(weights == Weights::Score);
-            for (camera, image) in cameras.iter().zip(&images) {
-                let view = cloud.visible_from_camera(camera, &scored).unwrap();
-                let place = camera.position();
-                for (k, &index) in view.visibility.indices().iter().enumerate() {
-                    let [u, v] = view.pixels[k].map(|x| x.floor() as usize);
-                    let distance = crate::common::flip::distance(points[index as usize], place);
-                    let depth = f64::from(view.depths[k]);
-                    let weight = match weights {
-                        Weights::Equal => 1.0,
-                        Weights::Distance => 1.0 / (depth * depth),
-                        Weights::Angle => depth / distance,
-                        Weights::Score => view.visibility.scores()[index as usize].into(),
-                    };
-                    // Channel 0 of the pixel, and all of it as one label.
-                    let at = 2 * (v * 16 + u);
-                    let label = f64::from(image[at]) + 5.0 * f64::from(image[at + 1]);
-                    seen[index as usize].push((f64::from(image[at]), label, weight));
+    let mut compared = 0;
+    let usual = shapes::bumpy(&mut rng, 300);
+    let merges = [Merge::Mean, Merge::Median, Merge::Vote, Merge::Best];
+    let weights = [
+        Weights::Equal,
+        Weights::Distance,
+        Weights::Angle,
+        Weights::Score,
+    ];
+    let samplings = [Sampling::Nearest, Sampling::Bilinear];
+    for (round, &(model, distortion)) in LENSES.iter().cycle().take(64).enumerate() {
+        let how = TransferOptions {
+            merge: merges[round % 4],
+            weights: weights[round / 4 % 4],
+            sampling: samplings[round / 16 % 2],
+        };
+        if how.merge == Merge::Vote && how.sampling == Sampling::Bilinear {
+            continue;
+        }
+        let unit = 2f64.powi(rng.integer(-100, 100));
+        let points: Vec<_> = usual.iter().map(|p| p.map(|x| x * unit)).collect();
+        let cloud = PointCloud::new(&points).unwrap();
+        // One camera is a pinhole: a false weight of the others shows.
+        let cameras: Vec<Camera> = (0..5)
+            .map(|number| {
+                let place = rng.direction().map(|x| x * 2.0);
+                let convention = rng.pick(&[Convention::OpenCv, Convention::OpenGl]);
+                let mut own = camera(&mut rng, place, place.map(|x| -x), convention);
+                matrix(&mut own)[12..15].iter_mut().for_each(|x| *x *= unit);
+                [own.width, own.height] = [16.0, 12.0];
+                [own.fx, own.fy, own.cx, own.cy] = [9.0, 8.0, 8.5, 6.0];
+                if number > 0 {
+                    (own.model, own.distortion) = (model, distortion);
                 }
+                own
+            })
+            .collect();
+        let images: Vec<Vec<f32>> = (0..5)
+            .map(|_| (0..2 * 16 * 12).map(|_| rng.below(5) as f32).collect())
+            .collect();
+        let given = images.iter().map(|image| Image {
+            pixels: Pixels::Singles(image),
+            channels: 2,
+        });
+        let options = Options::looks(3);
+        let found = cloud.transfer(&cameras, given, &options, &how).unwrap();
+        let (seen, in_doubt) = by_definition(&cloud, &points, &cameras, &images, &options, &how);
+        let values = numbers(&found);
+        for (index, seen) in seen
+            .iter()
+            .enumerate()
+            .filter(|&(index, _)| !in_doubt[index])
+        {
+            assert_eq!(found.seen[index] as usize, seen.len());
+            let own = [values[2 * index], values[2 * index + 1]];
+            if seen.is_empty() {
+                assert!(own.iter().all(|value| value.is_nan()));
+                continue;
             }
-            let values = numbers(&found);
-            for (index, seen) in seen.iter().enumerate() {
-                assert_eq!(found.seen[index] as usize, seen.len());
-                let own = [values[2 * index], values[2 * index + 1]];
-                if seen.is_empty() {
-                    assert!(own.iter().all(|value| value.is_nan()));
-                    continue;
-                }
-                let (found, expected) = match merge {
-                    Merge::Vote => {
-                        let labels: Vec<_> =
-                            seen.iter().map(|(_, label, w)| (*label, *w)).collect();
-                        (own[0] + 5.0 * own[1], merged(merge, &labels))
-                    }
-                    _ => {
-                        let first: Vec<_> = seen.iter().map(|(value, _, w)| (*value, *w)).collect();
-                        (own[0], merged(merge, &first))
-                    }
-                };
-                let title = format!("{merge:?} by {weights:?} of {seen:?}");
-                assert!(
-                    (found - expected).abs() < 1e-5,
-                    "{found}, not {expected}: {title}"
-                );
-            }
+            let is_label = how.merge == Merge::Vote;
+            let of =
+                |&(value, label, weight): &Seen| (if is_label { label } else { value }, weight);
+            let expected = merged(how.merge, &seen.iter().map(of).collect::<Vec<_>>());
+            let found = own[0] + if is_label { 5.0 * own[1] } else { 0.0 };
+            let title = format!("{how:?} of {seen:?} by {model:?} in units of {unit}");
+            assert!(
+                (found - expected).abs() < 1e-5,
+                "{found}, not {expected}: {title}"
+            );
+            compared += usize::from(seen.len() > 1);
         }
     }
+    assert!(compared > 4000, "{compared} values of several cameras");
 }
 
 /// A camera at the origin that looks along +z.
