@@ -2,6 +2,8 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
+use glam::DVec3;
+
 use hidden_point_removal::{
     Exponential, Inversion, Options, Panorama, PanoramaOptions, PointCloud,
 };
@@ -370,6 +372,128 @@ fn areas_are_those_of_pixels(
         errors[0].abs() < cut && errors[1].abs() < 0.25 * cut,
         "{errors:?} at {title}"
     );
+}
+
+/// Each pixel against all triangles between visible points, in any unit.
+#[test]
+fn each_pixel_is_that_of_the_triangle_around_its_ray() {
+    let mut rng = Rng::new(12);
+    let [mut surfaces, mut skies] = [0; 2];
+    for _ in 0..400 {
+        let unit = 2f64.powi(rng.integer(-100, 100));
+        let far = |rng: &mut Rng| [0; 3].map(|_| rng.between(-unit, unit));
+        let mut points: Vec<_> = (0..5 + rng.below(7)).map(|_| far(&mut rng)).collect();
+        if rng.chance(2) {
+            // Patches with sky between them.
+            for k in 2..points.len() {
+                points[k] = points[k % 2].map(|x| x + 0.1 * rng.between(-unit, unit));
+            }
+        }
+        let from = far(&mut rng);
+        let cloud = PointCloud::new(&points).unwrap();
+        let (options, size) = (
+            Options::exponent(2.0),
+            PanoramaOptions {
+                width: 32,
+                height: 16,
+                ..SIZE
+            },
+        );
+        let panorama = cloud.panorama(from, &options, &size).unwrap();
+        let seen = cloud.visible_from(from, &options).unwrap();
+        let places: Vec<_> = seen
+            .indices()
+            .iter()
+            .map(|&index| {
+                (DVec3::from_array(points[index as usize]) - DVec3::from_array(from)) / unit
+            })
+            .collect();
+        let count = places.len();
+        let pairs = (0..count).flat_map(|a| (a + 1..count).map(move |b| (a, b)));
+        let triples = pairs.flat_map(|(a, b)| (b + 1..count).map(move |c| [a, b, c]));
+        // Those with no other direction beyond their plane, which has the viewpoint behind it.
+        let triangles: Vec<_> = triples
+            .filter_map(|corners| {
+                let [a, b, c] = corners.map(|k| places[k].normalize());
+                let normal = (b - a).cross(c - a).normalize();
+                let normal = normal * normal.dot(a).signum();
+                let is_behind = |p: &DVec3| normal.dot(p.normalize() - a) < 1e-9;
+                places.iter().all(is_behind).then_some(corners)
+            })
+            .collect();
+        let mut is_sky = vec![None; triangles.len()];
+        for pixel in 0..32 * 16 {
+            let elevation = FRAC_PI_2 - PI * ((pixel / 32) as f64 + 0.5) / 16.0;
+            let (sin, cos) = (TAU * (pixel % 32) as f64 / 32.0).sin_cos();
+            let ray = DVec3::new(
+                elevation.cos() * cos,
+                elevation.cos() * sin,
+                elevation.sin(),
+            );
+            let shares = |corners: [usize; 3]| {
+                let [a, b, c] = corners.map(|k| places[k].normalize());
+                let all = a.dot(b.cross(c));
+                [
+                    ray.dot(b.cross(c)),
+                    ray.dot(c.cross(a)),
+                    ray.dot(a.cross(b)),
+                ]
+                .map(|x| x / all)
+            };
+            let least = |&k: &usize| {
+                shares(triangles[k])
+                    .into_iter()
+                    .fold(f64::INFINITY, f64::min)
+            };
+            let inside = (0..triangles.len()).max_by(|a, b| least(a).total_cmp(&least(b)));
+            let found = (
+                panorama.indices[pixel],
+                f64::from(panorama.ranges[pixel]) / unit,
+            );
+            let (title, nothing) = (
+                format!("pixel {pixel} of {points:?} from {from:?}"),
+                (Panorama::SKY, f64::INFINITY),
+            );
+            match inside {
+                // A hull that does not go around the viewpoint.
+                None => assert_eq!(found, nothing, "{title}"),
+                Some(own) if least(&own) < -1e-3 => assert_eq!(found, nothing, "{title}"),
+                Some(own) if least(&own) > 1e-3 => {
+                    assert_eq!(
+                        *is_sky[own].get_or_insert(found == nothing),
+                        found == nothing,
+                        "{title}"
+                    );
+                    if found == nothing {
+                        skies += 1;
+                        continue;
+                    }
+                    surfaces += 1;
+                    let corners = triangles[own].map(|k| places[k]);
+                    let along = |p: &DVec3| p.dot(ray);
+                    let angle = |&k: &usize| places[k].normalize().dot(ray);
+                    let nearest = triangles[own]
+                        .into_iter()
+                        .max_by(|a, b| angle(a).total_cmp(&angle(b)))
+                        .unwrap();
+                    assert_eq!(found.0, seen.indices()[nearest], "{title}");
+                    let [a, b, c] = corners;
+                    let normal = (b - a).cross(c - a);
+                    let [low, high] = [f64::min, f64::max]
+                        .map(|of| corners.iter().map(along).reduce(of).unwrap());
+                    let crossing = (normal.dot(a) / normal.dot(ray)).clamp(low, high);
+                    let is_near = |range: f64| (found.1 / range - 1.0).abs() < 1e-5;
+                    assert!(
+                        is_near(crossing) || is_near(places[nearest].length()),
+                        "{}, not {crossing}: {title}",
+                        found.1
+                    );
+                }
+                Some(_) => {}
+            }
+        }
+    }
+    assert!(surfaces > 10_000 && skies > 100, "{surfaces}, {skies}");
 }
 
 #[test]
