@@ -133,7 +133,8 @@ const [SURELY, RATIO] = [1 << 26, 100];
 export async function unpacked<File extends { source: Source; name: string }>(file: File): Promise<File> {
   const [first, second] = await file.source.read(0, 2);
   if (first !== 0x1f || second !== 0x8b) return file;
-  const parts: Uint8Array<ArrayBuffer>[] = [];
+  // Blobs may lie on a disk, and thousands of small arrays cost more than their bytes.
+  let parts: BlobPart[] = [];
   let length = 0;
   for await (const part of unpackedParts(file.source)) {
     length += part.length;
@@ -142,15 +143,9 @@ export async function unpacked<File extends { source: Source; name: string }>(fi
       const times = Math.round(length / file.source.size);
       throw new FormatProblem(`it is packed with gzip to less than 1/${times} of its size, as no points are`);
     }
-    parts.push(part);
+    if (parts.push(part) > 1000) parts = [new Blob(parts)];
   }
-  const whole = new Uint8Array(length);
-  let at = 0;
-  for (const part of parts) {
-    whole.set(part, at);
-    at += part.length;
-  }
-  return { ...file, source: bytesSource(whole), name: file.name.replace(/\.gz$/i, "") };
+  return { ...file, source: blobSource(new Blob(parts)), name: file.name.replace(/\.gz$/i, "") };
 }
 
 async function* unpackedParts(source: Source): AsyncGenerator<Uint8Array<ArrayBuffer>> {
