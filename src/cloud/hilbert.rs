@@ -69,7 +69,7 @@ pub(super) fn hilbert_key(cell: [u32; 3], levels: u32) -> u64 {
 pub(crate) struct Pairs([u16; 64 * 32]);
 
 impl Pairs {
-    pub(super) fn new() -> Self {
+    pub(crate) fn new() -> Self {
         let mut pairs = [0; 64 * 32];
         for (place, pair) in pairs.iter_mut().enumerate().take(64 * TURNS.len()) {
             let outer = TABLE[place >> 3];

@@ -4,7 +4,7 @@
 
 pub(crate) mod blocks;
 pub(crate) mod filling;
-mod hilbert;
+pub(crate) mod hilbert;
 pub(crate) mod neighbors;
 pub(crate) mod noise;
 pub(crate) mod plane;

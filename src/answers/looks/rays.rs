@@ -1,6 +1,7 @@
 //! The viewer, and points by the direction in which they are seen.
 
 use alloc::vec::Vec;
+use core::ops::Range;
 use glam::DVec3;
 
 use crate::base::allocation::{OutOfMemory, push, with_capacity};
@@ -48,94 +49,77 @@ impl Ray {
     }
 }
 
-/// Boxes around the rays of runs of points. The points follow the cloud's order, so the rays of a
-/// run are near each other.
+/// Boxes around runs of rays, level by level.
 pub(super) struct Rays {
-    rays: Vec<Ray>,
-    /// A box and the largest range in it, level by level.
-    levels: Vec<Vec<(Bounds, f64)>>,
+    pub all: Vec<Ray>,
+    levels: Vec<Vec<Bounds>>,
 }
 
 impl Rays {
-    pub(super) fn of(rays: Vec<Ray>) -> Result<Self, OutOfMemory> {
+    /// Rays in an order in which neighbors are near each other.
+    pub(super) fn of(all: Vec<Ray>) -> Result<Self, OutOfMemory> {
         let mut levels = Vec::new();
-        let mut level: Vec<(Bounds, f64)> = with_capacity(rays.len().div_ceil(FANOUT))?;
-        for run in rays.chunks(FANOUT) {
-            let bounds = Bounds::around(run.iter().map(|ray| ray.place.to_array()));
-            let ranges = run.iter().map(|ray| ray.range);
-            level.push((bounds, ranges.fold(f64::NEG_INFINITY, f64::max)));
+        let mut level: Vec<Bounds> = with_capacity(all.len().div_ceil(FANOUT))?;
+        for run in all.chunks(FANOUT) {
+            level.push(Bounds::around(run.iter().map(|ray| ray.place.to_array())));
         }
         while level.len() > FANOUT {
-            let mut above: Vec<(Bounds, f64)> = with_capacity(level.len().div_ceil(FANOUT))?;
+            let mut above: Vec<Bounds> = with_capacity(level.len().div_ceil(FANOUT))?;
             for run in level.chunks(FANOUT) {
-                let mut all = (Bounds::EMPTY, f64::NEG_INFINITY);
-                for (bounds, range) in run {
-                    all.0.union(bounds);
-                    all.1 = all.1.max(*range);
-                }
-                above.push(all);
+                let mut bounds = Bounds::EMPTY;
+                run.iter().for_each(|inner| bounds.union(inner));
+                above.push(bounds);
             }
             push(&mut levels, level)?;
             level = above;
         }
         push(&mut levels, level)?;
-        Ok(Self { rays, levels })
+        Ok(Self { all, levels })
     }
 
-    pub(super) fn len(&self) -> usize {
-        self.rays.len()
+    /// The rays of a run, and their box.
+    pub(super) fn run(&self, run: usize) -> (&[Ray], &Bounds) {
+        let start = run * FANOUT;
+        let end = self.all.len().min(start + FANOUT);
+        (&self.all[start..end], &self.levels[0][run])
     }
 
-    /// Visits rays that are at least `range` long and at most the root of `reach` beside `place`.
-    /// The visitor may return a shorter reach.
-    pub(super) fn visit(
+    pub(super) fn runs(&self) -> usize {
+        self.levels[0].len()
+    }
+
+    /// Lists the runs that may hold rays at most the root of `reach` beside a box of places.
+    pub(super) fn list(
         &self,
-        place: DVec3,
-        range: f64,
+        around: &Bounds,
         reach: f64,
-        visitor: &mut dyn FnMut(f64, &Ray) -> Option<f64>,
-    ) {
-        let mut search = Search {
-            place,
-            range,
-            reach,
-            visitor,
-        };
+        runs: &mut Vec<u32>,
+    ) -> Result<(), OutOfMemory> {
+        runs.clear();
         let top = self.levels.len() - 1;
-        for node in 0..self.levels[top].len() {
-            search.descend(self, top, node);
-        }
+        self.descend(top, 0..self.levels[top].len(), around, reach, runs)
     }
-}
 
-struct Search<'a> {
-    place: DVec3,
-    range: f64,
-    reach: f64,
-    visitor: &'a mut dyn FnMut(f64, &Ray) -> Option<f64>,
-}
-
-impl Search<'_> {
-    fn descend(&mut self, among: &Rays, level: usize, node: usize) {
-        let (bounds, longest) = &among.levels[level][node];
-        if *longest < self.range || bounds.distance_squared(self.place.to_array()) > self.reach {
-            return;
-        }
-        let start = node * FANOUT;
-        if level > 0 {
-            for child in start..among.levels[level - 1].len().min(start + FANOUT) {
-                self.descend(among, level - 1, child);
+    fn descend(
+        &self,
+        level: usize,
+        nodes: Range<usize>,
+        around: &Bounds,
+        reach: f64,
+        runs: &mut Vec<u32>,
+    ) -> Result<(), OutOfMemory> {
+        for node in nodes {
+            if self.levels[level][node].gap_squared(around) > reach {
+                continue;
             }
-            return;
-        }
-        for ray in &among.rays[start..among.rays.len().min(start + FANOUT)] {
-            let squared = (ray.place - self.place).length_squared();
-            if ray.range >= self.range
-                && squared <= self.reach
-                && let Some(shorter) = (self.visitor)(squared, ray)
-            {
-                self.reach = shorter;
+            if level == 0 {
+                push(runs, node as u32)?;
+            } else {
+                let start = node * FANOUT;
+                let end = self.levels[level - 1].len().min(start + FANOUT);
+                self.descend(level - 1, start..end, around, reach, runs)?;
             }
         }
+        Ok(())
     }
 }

@@ -8,15 +8,18 @@
 //! noise is longer along a ray, and samples are nearer to each other across it. So hulls are
 //! looser, by more than the cube of the cosine.
 
+use alloc::vec::Vec;
 use glam::DVec3;
 
 use crate::answers::looks::rays::{Projection, Ray, Rays};
 use crate::base::allocation::{OutOfMemory, with_capacity};
 use crate::base::real::{larger, square_root};
 use crate::base::sort::percentile;
+use crate::cloud::blocks::FANOUT;
 use crate::cloud::noise::{Noise, Surface};
 use crate::cloud::point_cloud::{PointCloud, Survey};
 use crate::cloud::points::Points;
+use crate::cloud::spatial::Bounds;
 use crate::cloud::statistics::Statistics;
 use crate::flip::kernel::Kernel;
 
@@ -256,15 +259,30 @@ impl Range<'_> {
         rays.extend(places.map(|(point, place)| Ray::to(self.place(place), None, point)));
         let rays = Rays::of(rays)?;
         let mut away = 0;
+        let mut runs = Vec::new();
         for sample in &self.noise.samples {
             let place = self.place(sample.place);
             let own = Ray::to(place, None, sample.point as usize);
-            let mut nearest = own;
-            rays.visit(own.place, 0.0, f64::INFINITY, &mut |squared, ray| {
-                (ray.point != own.point).then(|| {
-                    nearest = *ray;
-                    squared
-                })
+            let (mut nearest, mut least) = (own, f64::INFINITY);
+            let mut meet = |run: usize| {
+                for ray in rays.run(run).0 {
+                    let squared = (ray.place - own.place).length_squared();
+                    // Of equally near ones the last one counts.
+                    let is_after = squared == least && ray.point > nearest.point;
+                    if ray.point != own.point && (squared < least || is_after) {
+                        (nearest, least) = (*ray, squared);
+                    }
+                }
+                least
+            };
+            let reach = meet(sample.point as usize / FANOUT);
+            rays.list(
+                &Bounds::around([own.place.to_array()].into_iter()),
+                reach,
+                &mut runs,
+            )?;
+            runs.iter().for_each(|&run| {
+                meet(run as usize);
             });
             let apart = nearest.place * nearest.range - place;
             let near = NEAR * sample.spacing / self.farthest;
