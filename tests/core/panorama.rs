@@ -312,6 +312,18 @@ fn the_areas_are_those_of_the_pixels() {
         -0.05150283239582454,
     ];
     areas_are_those_of_pixels(&points, from, &Options::exponent(2.0), 1024);
+    // Half of the sphere, with a part of the horizon of 180 degrees.
+    let points = [
+        [2.0, -1.0, 0.0],
+        [-1.0, 2.0, 3.0],
+        [-2.0, -2.0, -6.0],
+        [-1.0, 0.0, -1.0],
+        [-3.0, -2.0, -7.0],
+        [-2.0, 3.0, 4.0],
+        [1.0, 0.0, 1.0],
+        [3.0, 1.0, 5.0],
+    ];
+    areas_are_those_of_pixels(&points, points[1], &Options::default(), 128);
     for round in 0..300 {
         let whole = |rng: &mut Rng| [0; 3].map(|_| f64::from(rng.integer(-4, 4)));
         let mut points: Vec<_> = (0..4 + rng.below(8)).map(|_| whole(&mut rng)).collect();

@@ -209,9 +209,11 @@ fn projected(corners: [DVec3; 3], up: DVec3) -> f64 {
         };
     }
     if let (Some(down), Some(upwards)) = (down, upwards) {
-        sum += edge_height(down, upwards, up);
+        // Against the clock along the horizon, also half of it.
+        let sine = square_root(down.cross(upwards).length_squared());
+        sum += libm::atan2(sine, down.dot(upwards));
     }
-    0.5 * sum.abs()
+    0.5 * sum
 }
 
 /// The angle between two directions, times the height of the unit vector perpendicular to both.
