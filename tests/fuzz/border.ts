@@ -7,6 +7,7 @@ import { actingArguments, actingChanges, disappearingMemory } from "./border/act
 import { changes } from "./border/changes.js";
 import { exports } from "./border/exports.js";
 import { flights } from "./border/flight.js";
+import { isOwn } from "./border/hostile.js";
 import { oneShot, questions } from "./border/single.js";
 import { structured } from "./border/structured.js";
 
@@ -43,6 +44,10 @@ export const PROPERTIES: readonly Property[] = [
 /** Runs all properties in turn until the time is over. Returns how many runs found something wrong. */
 export async function fuzzBorder(minutes: number, seed: number): Promise<number> {
   await Promise.all([init(), initLite()]);
+  // The error of a listener is the caller's: it disturbs no answer.
+  process.on("uncaughtException", (error) => {
+    if (!isOwn(error)) throw error;
+  });
   // Keeps the shared worker alive between cases.
   const resident = await WorkerPointCloud.create([], { shared: true });
   const end = Date.now() + 60_000 * minutes;

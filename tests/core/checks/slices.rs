@@ -32,6 +32,7 @@ pub fn check(scene: &Scene, rng: &mut Rng) -> Result<(), String> {
             if rng.chance(6) {
                 // Another view, whole or begun only.
                 let place = walk.place(rng, 2.0);
+                slices = 0;
                 let _ = match rng.chance(2) {
                     true => observer.go_on(place, &options, budget),
                     false => observer.visible_from(place, &options).map(|_| true),

@@ -9,9 +9,12 @@ export function throwing(): never {
   throw new Own("the argument's own");
 }
 
-/** Whether a value itself threw: its own error, or what JavaScript says about a proxy that was revoked. */
+/**
+ * Whether a value itself threw: its own error, or what JavaScript says about a proxy that was revoked and a class that
+ * is called as a listener.
+ */
 export const isOwn = (error: unknown): boolean =>
-  error instanceof Own || (error instanceof TypeError && error.message.includes("revoked"));
+  error instanceof Own || (error instanceof TypeError && /revoked|requires 'new'/.test(error.message));
 
 const NUMBERS = [NaN, Infinity, -Infinity, -1, -0, 0, 0.5, 5e-324, 1.7e308, 2 ** 53, 2 ** 32, 2 ** 31, 1e15];
 const STRINGS = ["", "__proto__", "7", "\ud800", "opposite", "auto"];
