@@ -5,7 +5,9 @@ import { readFileSync } from "node:fs";
 import { pathToFileURL } from "node:url";
 
 const [, , packagePath, casesPath] = process.argv;
-const { init, orientNormals, PointCloud, transfer } = await import(pathToFileURL(packagePath).href);
+const { Horizon, init, mergeVisible, orientNormals, PointCloud, transfer } = await import(
+  pathToFileURL(packagePath).href
+);
 await init();
 
 /** The bytes of one answer after another. */
@@ -15,7 +17,21 @@ function digest(...arrays) {
   return hash.digest("hex");
 }
 
+/** The points that a horizon of every fifth point leaves, its own, the boxes that it hides, and what is visible of all. */
+function merged(positions, [viewpoint, options]) {
+  const at = (i) => positions.subarray(3 * i, 3 * i + 3);
+  const horizon = new Horizon(viewpoint, options);
+  const all = Array.from({ length: positions.length / 3 }, (_, i) => i);
+  horizon.add(all.filter((i) => i % 5 === 0).flatMap((i) => [...at(i)]));
+  const ids = horizon.screen(positions);
+  const corners = (i, by) => Array.from(at(i), (x) => x + by);
+  const hidden = Uint8Array.from(all.slice(0, 99), (i) => horizon.hidesBox(corners(i, -0.01), corners(i, 0.01)));
+  const part = { positions: positions.constructor.from([...ids].flatMap((i) => [...at(i)])), ids };
+  return digest(ids, Float64Array.from(horizon.visible()), hidden, mergeVisible([part], viewpoint, options));
+}
+
 function ask(cloud, call, given) {
+  if (call === "hides") return cloud.visibilityMap(...given);
   if (call === "orientNormals") return orientNormals(Float64Array.from(given[0]), cloud.seenBy(given[1]));
   if (call !== "transfer") return cloud[call](...given);
   const [cameras, images, options] = given;
@@ -28,11 +44,21 @@ function ask(cloud, call, given) {
 
 function answer({ file, precision, call, arguments: given }) {
   const bytes = readFileSync(file).buffer;
-  const cloud = new PointCloud(precision === "single" ? new Float32Array(bytes) : new Float64Array(bytes));
+  const positions = precision === "single" ? new Float32Array(bytes) : new Float64Array(bytes);
+  if (call === "merge") return merged(positions, given);
+  const cloud = new PointCloud(positions);
   try {
+    if (call === "survey") {
+      return digest(Float64Array.of(cloud.spacing, cloud.noise), new TextEncoder().encode(cloud.surface));
+    }
     const result = ask(cloud, call, given);
     if (ArrayBuffer.isView(result)) return digest(result);
-    if ("recall" in result) return digest(Float64Array.of(result.thickness, ...result.recall));
+    if (call === "hides") return digest(result.hides(positions));
+    if ("recall" in result) return digest(Float64Array.of(result.thickness, result.shown, ...result.recall));
+    if ("ranges" in result) {
+      return digest(result.ranges, result.indices, Float64Array.of(result.skyViewFactor, result.solidAngle));
+    }
+    if ("pixels" in result && "depths" in result) return digest(result.indices, result.pixels, result.depths);
     if ("offsets" in result) return digest(result.offsets, result.cameras, result.pixels, result.towards);
     if ("values" in result) return digest(Float32Array.from(result.values), result.seen);
     if ("uniforms" in result) return digest(result.data, Float64Array.from(Object.values(result.uniforms).flat()));

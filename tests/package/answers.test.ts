@@ -3,8 +3,6 @@ import { setFlagsFromString } from "node:v8";
 import { describe, expect, it } from "vitest";
 
 import { cappedWasm } from "./capped-wasm";
-import type { VisibilityOptions } from "hidden-point-removal";
-
 import { bumpySphere, freshPackage, randomNumbers, readyPackage } from "./support";
 
 const { PointCloud, hiddenPointRemoval } = await readyPackage();
@@ -158,46 +156,6 @@ describe("memory", () => {
   });
 });
 
-describe("sees", () => {
-  const positions = bumpySphere(5, 1500);
-  const from = [0.3, 0.8, 2.5];
-  const random = randomNumbers(3);
-  /** Some in front of the surface, some behind it, some points of the cloud, and the viewpoint. */
-  const places = Float64Array.from({ length: 120 }, (_, i) =>
-    i < 30 ? positions[3 * 7 + i]! : i < 33 ? from[i - 30]! : 2.4 * random() - 1.2,
-  );
-
-  /** The answer of a cloud with the point more, with the radius and the inversion of the view without it. */
-  function byDefinition(options: VisibilityOptions): number[] {
-    const { radius, inversion } = hiddenPointRemoval(positions, from, options);
-    const numbers = inversion === "spherical" ? { exponent: undefined, radius } : { inversion };
-    const same = options.looks === undefined ? { ...options, ...numbers } : options;
-    return Array.from({ length: places.length / 3 }, (_, i) => {
-      const place = places.subarray(3 * i, 3 * i + 3);
-      const isBeyond = inversion === "spherical" && Math.hypot(...place.map((x, axis) => x - from[axis]!)) > radius;
-      return isBeyond
-        ? 0
-        : hiddenPointRemoval([...positions, ...place], from, same)
-            .mask()
-            .at(-1)!;
-    });
-  }
-
-  const choices = [{}, { radius: 8 }, { looks: 2 as const }, { within: { distance: 2.2 } }];
-
-  it("the answer is that of a cloud with the one point more and the same radius", () => {
-    const cloud = new PointCloud(positions);
-    for (const options of choices) {
-      const seen = cloud.sees(from, places, options);
-      expect(seen).toBeInstanceOf(Uint8Array);
-      expect(Array.from(seen)).toEqual(byDefinition(options));
-    }
-    expect(cloud.length).toBe(1500);
-    expect(cloud.sees(from, [])).toEqual(new Uint8Array(0));
-    cloud.dispose();
-  });
-});
-
 describe("a cloud in the plane", () => {
   it("is a cloud in space with z = 0, to the bit", () => {
     const random = randomNumbers(4);
@@ -227,38 +185,4 @@ describe("a cloud in the plane", () => {
     expect(plane.autoRadius(from, "opposite")).toEqual(space.autoRadius([...from, 0], "opposite"));
     expect(hiddenPointRemoval(flat, from, { dimension: 2 })).toEqual(plane.visibleFrom(from));
   });
-});
-
-const SKY = 2 ** 32 - 1;
-
-/** Points on a hemisphere of radius 5 above the origin. */
-function dome(count: number): Float32Array {
-  const random = randomNumbers(1);
-  const points = Array.from({ length: count }, () => {
-    const [z, turn] = [random(), 2 * Math.PI * random()];
-    const across = 5 * Math.sqrt(1 - z * z);
-    return [across * Math.cos(turn), across * Math.sin(turn), 5 * z];
-  });
-  return Float32Array.from(points.flat());
-}
-
-it("a panorama gives ranges, points and areas of a dome", () => {
-  const positions = dome(10_000);
-  const { ranges, indices, skyViewFactor, solidAngle } = new PointCloud(positions).panorama([0, 0, 0], {
-    width: 128,
-    height: 64,
-  });
-  expect([ranges.length, indices.length]).toEqual([128 * 64, 128 * 64]);
-  expect(Math.abs(solidAngle / (2 * Math.PI) - 1)).toBeLessThan(0.01);
-  expect(skyViewFactor).toBeLessThan(0.001);
-  const isRight = (range: number, pixel: number) => {
-    const isSky = indices[pixel] === SKY;
-    const isDome = pixel < 128 * 30 && Math.abs(range - 5) < 0.05;
-    return (range === Infinity) === isSky && (isDome || (pixel >= 128 * 30 && (isSky || pixel < 128 * 32)));
-  };
-  expect([...ranges].filter((range, pixel) => !isRight(range, pixel))).toEqual([]);
-  // Column 0 looks along +x, a quarter of the width later it is +y.
-  const [x, y] = [0, 32].map((column) => indices[20 * 128 + column]!);
-  expect(positions[3 * x!]! / 5).toBeGreaterThan(0.7);
-  expect(positions[3 * y! + 1]! / 5).toBeGreaterThan(0.7);
 });

@@ -129,51 +129,9 @@ describe("a surface with noise", () => {
 });
 
 describe("a calibration", () => {
-  // What a scanner in a box room sees, thinned to one point in each cell.
-  const cells = new Map<string, number[]>();
-  for (let i = 0; i < 40_000; i++) {
-    const [tilt, turn] = [0.7 * Math.sin(i * 0.618), i * 2.399963];
-    const ray = [Math.cos(tilt) * Math.cos(turn), Math.cos(tilt) * Math.sin(turn), Math.sin(tilt)];
-    const range = Math.min(...ray.map((x, axis) => [9, 4, 1.6][axis]! / Math.abs(x)));
-    const isPillar = Math.cos(turn) > 0.97;
-    const place = ray.map((x) => x * (isPillar ? 2.5 + ((0.377 * i) % 1) : range));
-    const cell = place.map((x) => Math.floor(x / 0.25)).join();
-    if (!cells.has(cell)) cells.set(cell, place);
-  }
-  const scan = new PointCloud([...cells.values()].flat());
+  const scan = cloud;
   const indices = Uint32Array.from({ length: scan.length }, (_, i) => i);
   const viewpoint = [0, 0, 0];
-
-  it("finds the thickness at which a scanner sees its own points, in a worker too", async () => {
-    const found = scan.calibrate([{ viewpoint, indices }]);
-    const { thickness, recall, options } = found;
-    expect(recall).toHaveLength(1);
-    expect(recall[0]).toBeGreaterThanOrEqual(0.98);
-    expect(options).toMatchObject({ looks: 3, thickness });
-    // The station measured all points, so none is hidden from it.
-    expect(found).toMatchObject({ shown: 0 });
-    expect(found).not.toHaveProperty("note");
-    expect(scan.visibleFrom(viewpoint, options).count).toBe(Math.round(recall[0]! * scan.length));
-    expect(scan.visibleFrom(viewpoint, { looks: 3, thickness: 0 }).count).toBeLessThan(0.97 * scan.length);
-    const mask = new Uint8Array(scan.length).fill(1);
-    expect(scan.calibrate([{ viewpoint, mask }])).toEqual(found);
-    const other = await WorkerPointCloud.create([...cells.values()].flat());
-    expect(await other.calibrate([{ viewpoint, indices }])).toEqual(found);
-    await other.dispose();
-    // A given thickness is only measured.
-    const given = scan.calibrate([{ viewpoint, indices }], { thickness: 0 });
-    expect(given.thickness).toBe(0);
-    expect(given.recall[0]).toBeLessThan(0.97);
-  });
-
-  it("does not count points that cannot be seen", () => {
-    const whole = scan.calibrate([{ viewpoint, indices }]);
-    const copy = new PointCloud([...cells.values()].flat());
-    copy.append([...cells.values()].flat().map((x) => 1.1 * x));
-    copy.remove(Uint32Array.from({ length: scan.length }, (_, i) => scan.length + i));
-    const all = Uint32Array.from({ length: copy.length }, (_, i) => i);
-    expect(copy.calibrate([{ viewpoint, indices: all }])).toEqual(whole);
-  });
 
   it.each<[RegExp, unknown]>([
     [/stations.*at least one/, []],

@@ -5,72 +5,17 @@ import { bumpySphere, bunny, expectRefusal, problemOf, readyPackage, type Refusa
 
 const { PointCloud } = await readyPackage();
 
-const points = bunny();
-const cloud = new PointCloud(points);
-const viewpoint = [0, 5, 20];
 const loose = (value: unknown) => value as never;
 
-const at = (index: number) => [...points.subarray(3 * index, 3 * index + 3)] as [number, number, number];
-type Vector = [number, number, number];
-const minus = ([a, b, c]: Vector, [x, y, z]: Vector): Vector => [a - x, b - y, c - z];
-/** The triangles of a mesh, as lists of three. */
-const listed = (triangles: Uint32Array) =>
-  Array.from({ length: triangles.length / 3 }, (_, i) => [...triangles.subarray(3 * i, 3 * i + 3)] as Vector);
-const longest = (corners: Vector) =>
-  Math.max(...corners.map((a, i) => Math.hypot(...minus(at(a), at(corners[(i + 1) % 3]!)))));
-
-describe("a reconstruction", () => {
-  const whole = cloud.reconstruct(viewpoint, { maxEdge: Infinity });
-  const triangles = listed(whole.triangles);
-
-  it("also gives the visible points", () => {
-    const visible = cloud.visibleFrom(viewpoint);
-    expect(whole.indices).toEqual(visible.indices);
-    expect(whole.mask()).toEqual(visible.mask());
-    expect(whole).toMatchObject({
-      count: visible.count,
-      radius: visible.radius,
-      exponent: visible.exponent,
-      evaluations: 0,
-      inversion: "spherical",
-    });
-    expect(whole.triangles).toBeInstanceOf(Uint32Array);
-    expect(whole.triangles.buffer.byteLength).toBe(whole.triangles.byteLength);
-  });
-
-  it("leaves out triangles with a longer edge than maxEdge, by default 5 spacings", () => {
-    for (const maxEdge of [0, 0.3, 1, 3]) {
-      const { triangles: kept, indices } = cloud.reconstruct(viewpoint, { maxEdge });
-      expect(listed(kept)).toEqual(triangles.filter((corners) => longest(corners) <= maxEdge));
-      expect(indices).toEqual(whole.indices);
-    }
-    // The automatic c is 0.07 spacings.
-    const { exponential } = cloud.visibleFrom(viewpoint, { inversion: { exponential: "auto" } }).inversion as {
-      exponential: number;
-    };
-    const spacing = exponential / 0.07;
-    const usual = listed(cloud.reconstruct(viewpoint).triangles).map(longest);
-    expect(usual).toHaveLength(triangles.filter((corners) => longest(corners) <= 5 * spacing).length);
-    expect(usual.length).toBeLessThan(triangles.length);
-  });
-});
-
-describe("light", () => {
-  const lights = [viewpoint, [20, 5, 0], Float64Array.of(-20, 10, 3)];
-  const masks = lights.map((light) => cloud.visibleFrom(light).mask());
-
-  it("is ambient + (1 − ambient)·(lights that see the point ÷ lights)", () => {
-    for (const ambient of [0, 0.25, 1]) {
-      const brightness = cloud.illuminate(lights, { smoothing: 0, ambient });
-      expect(brightness).toBeInstanceOf(Float32Array);
-      expect(brightness).toHaveLength(cloud.length);
-      brightness.forEach((light, i) => {
-        const seen = masks.filter((mask) => mask[i] === 1).length;
-        expect(light).toBeCloseTo(ambient + ((1 - ambient) * seen) / 3, 6);
-      });
-    }
-    expect(cloud.illuminate(lights, { smoothing: 0 })).toEqual(cloud.illuminate(lights, { smoothing: 0, ambient: 0 }));
-  });
+it("a reconstruction also gives the visible points", () => {
+  const cloud = new PointCloud(bunny());
+  const whole = cloud.reconstruct([0, 5, 20]);
+  const { indices, count, radius, exponent } = cloud.visibleFrom([0, 5, 20]);
+  expect(whole).toMatchObject({ indices, count, radius, exponent, evaluations: 0, inversion: "spherical" });
+  expect(whole.mask().reduce((sum, byte) => sum + byte, 0)).toBe(count);
+  expect(whole.triangles).toBeInstanceOf(Uint32Array);
+  expect(whole.triangles.buffer.byteLength).toBe(whole.triangles.byteLength);
+  expect(cloud.illuminate([[0, 5, 20]])).toBeInstanceOf(Float32Array);
 });
 
 describe("refusals", () => {

@@ -28,46 +28,6 @@ it("hides hidden points only, and most of them", () => {
   expect(map.hides([0, 0, 0, 3, 1, 2, NaN, 0, 0, Infinity, 0, 0])).toEqual(Uint8Array.of(1, 0, 0, 0));
 });
 
-it("is finer for a large cloud", () => {
-  const large = new PointCloud(bumpySphere(3, 2_000_000));
-  const lengths = [large, cloud].map((of) => of.visibilityMap(viewpoint).data.length);
-  large.dispose();
-  expect(Math.min(...lengths)).toBeGreaterThan(30_000);
-  expect(Math.max(...lengths)).toBe(lengths[0]);
-  expect(lengths[0]).toBeGreaterThan(100_000);
-});
-
-it("has the same test in the core", () => {
-  const wide = Float64Array.from(positions, (x, i) => x + [452_000, 5_411_000, 300][i % 3]!);
-  const far = new PointCloud(wide);
-  const from = [452_003, 5_411_001, 302];
-  const map = far.visibilityMap(from);
-  expect(Math.hypot(...map.origin.map((x, i) => x - [452_000, 5_411_000, 300][i]!))).toBeLessThan(1);
-  expect(share(far.visibleFrom(from), map.hides(wide))).toBeGreaterThan(0.5);
-  far.dispose();
-});
-
-it("makes maps of parts, of looks, and towards a camera", () => {
-  const within = {
-    box: [
-      [-2, -2, -0.5],
-      [2, 2, 2],
-    ] as const,
-  };
-  for (const options of [{ within }, { looks: 3 as const }]) {
-    const map = cloud.visibilityMap(viewpoint, options);
-    const hidden = map.hides(positions);
-    if (!("looks" in options)) share(cloud.visibleFrom(viewpoint, options), hidden);
-    expect(hidden.includes(1), JSON.stringify(options)).toBe(true);
-  }
-  const lens = { fx: 400, fy: 400, cx: 320, cy: 240, width: 640, height: 480 };
-  const camera = cameraFromPose([0, 0, 4], [0, 0, 0, 1], lens, "opengl");
-  for (const towards of [camera, { direction: [0, 0, -1], angle: 60 }]) {
-    const hidden = cloud.visibilityMap([0, 0, 4], { towards }).hides([0, 0, 0, 0, 0, 20]);
-    expect(hidden).toEqual(Uint8Array.of(1, 0));
-  }
-});
-
 it("shows what looks with a thickness show beside an outline", () => {
   // The sides of a box, which a thickness reveals. Without a wider margin, 8 % of these points are hidden.
   const random = seeded(7);
