@@ -141,18 +141,13 @@ describe("a cloud split into nodes", () => {
     expect(drawnOf(levels).length).toBeLessThan(5000);
   });
 
+  // The automatic scale depends on all nodes together.
   const views: [name: string, options: VisibilityOptions][] = [
-    ["a radius", { radius: 20 }],
     ["an exponent", { exponent: 2.5 }],
-    ["an exponential", { inversion: { exponential: 0.001 } }],
     ["an automatic exponential", { inversion: { exponential: "auto" } }],
   ];
 
-  it.each([
-    ...views,
-    ["a power", { inversion: { power: 2 } }],
-    ["the opposite viewpoint", { radius: "opposite" }],
-  ] satisfies typeof views)("is seen with %s like one cloud", async (_, options) => {
+  it.each(views)("is seen with %s like one cloud", async (_, options) => {
     const nodes = split(bumpySphere(5, 4000), 5);
     const scene = sceneOf(nodes, options);
     scene.camera.position.fromArray(scene.root.localToWorld(new THREE.Vector3(2, 3, 4)).toArray());

@@ -157,23 +157,6 @@ describe.each(VERSIONS)("with %s", (name, load) => {
     expect(drawn(geometry)).toEqual(visibleFrom(local));
   });
 
-  it("sees along a direction with an orthographic camera", () => {
-    const { THREE } = adapter;
-    const { points, geometry } = sceneOf(adapter, sphere);
-    const camera = new THREE.OrthographicCamera(-2, 2, 2, -2);
-    camera.position.set(3, 4, 5);
-    camera.lookAt(3, 4, 0);
-    points.rotation.x = Math.PI / 2;
-    const filter = filterFor(points, { worker: false });
-    filter.update(camera);
-    const cloud = new adapter.PointCloud(sphere);
-    expect(drawn(geometry)).toEqual([...cloud.visibleFromDirection([0, -1, 6.123e-17]).indices]);
-    const perspective = new THREE.PerspectiveCamera();
-    perspective.position.set(0, 0, 5);
-    filter.update(perspective);
-    expect(filter.visibleCount).toBeLessThan(cloud.visibleFromDirection([0, -1, 0]).count);
-  });
-
   it("reads the positions of every kind of attribute like three.js", () => {
     const { THREE } = adapter;
     const random = randomNumbers(7);

@@ -4,7 +4,6 @@ import { Opening } from "./opening.ts";
 import { byId } from "../controls/controls.ts";
 import { spokenKeys } from "../controls/keys.ts";
 import { forgetAhead } from "../loaders/index.ts";
-import { onFile } from "../panel/files.ts";
 import { Panel } from "../panel/panel.ts";
 import { sampleNamed } from "../samples/samples.ts";
 import { Address, type CameraPlace, type AddressParameters } from "../settings/address.ts";
@@ -17,7 +16,7 @@ import { canDraw } from "../view/theme.ts";
 import { Viewer } from "../view/viewer.ts";
 import { Introduction, Storytelling } from "./storytelling.ts";
 import { Notices, sentenceOf } from "./notices.ts";
-import { fromFiles, limitsOf, type Source } from "./sources.ts";
+import { fromFiles, limitsOf, onFile, type Source } from "./sources.ts";
 import { Status } from "./status.ts";
 
 /** Makes the parts of the page, and opens the first cloud in them. Without WebGL 2, says so. Resolves when it is open. */
