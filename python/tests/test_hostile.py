@@ -97,32 +97,6 @@ def test_extreme_points(points):
             assert refused.code in ("radius", "viewpoint", "option", "non-finite", "too-large")
 
 
-def test_a_cloud_that_changes_while_it_is_asked():
-    """A change during a view is refused or waits. It never tears an answer."""
-    cloud = PointCloud(ball(40_000))
-    expected = cloud.visible_from(VIEWPOINT, radius=100.0).indices
-    answers, refusals = [], []
-
-    def ask():
-        for _ in range(5):
-            try:
-                answers.append(cloud.visible_from(VIEWPOINT, radius=100.0).indices)
-            except RuntimeError as busy:
-                refusals.append(str(busy))
-
-    thread = threading.Thread(target=ask)
-    thread.start()
-    while thread.is_alive():
-        try:
-            # Behind all others, and so never visible.
-            cloud.append([[0.0, 0.0, -0.5]])
-        except RuntimeError as busy:
-            refusals.append(str(busy))
-    thread.join()
-    assert all(np.array_equal(answer, expected) for answer in answers)
-    assert all("borrow" in refusal for refusal in refusals)
-
-
 def _in_child(cloud, queue):
     queue.put(cloud.visible_from(VIEWPOINT, radius=100.0).indices.tolist())
 

@@ -283,7 +283,10 @@ describe("what a file is", () => {
     class Counting extends DecompressionStream {
       override get readable() {
         const count = new TransformStream<Uint8Array<ArrayBuffer>, Uint8Array<ArrayBuffer>>({
-          transform: (part, to) => ((bytes += part.length), to.enqueue(part)),
+          transform: (part, to) => {
+            bytes += part.length;
+            to.enqueue(part);
+          },
         });
         return super.readable.pipeThrough(count);
       }

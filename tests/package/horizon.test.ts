@@ -1,8 +1,8 @@
 import { describe, expect, it } from "vitest";
 
-import { bumpySphere, pointsAt, readyPackage } from "./support";
+import { bumpySphere, readyPackage } from "./support";
 
-const { Horizon, HprError, mergeVisible, PointCloud } = await readyPackage();
+const { Horizon, HprError } = await readyPackage();
 
 const sphere = bumpySphere(1, 6000);
 const viewpoint = [0, 0, 5];
@@ -19,20 +19,6 @@ function codeOf(call: () => unknown): string {
 const loose = (value: unknown) => value as never;
 
 describe("a horizon", () => {
-  it.each([
-    ["single", sphere],
-    ["double", Float64Array.from(sphere)],
-  ])("screens points before a merge, in %s precision", (_, points) => {
-    const whole = new PointCloud(points).visibleFrom(viewpoint, options);
-    using horizon = new Horizon(viewpoint, options);
-    expect(horizon.screen(points)).toHaveLength(6000);
-    horizon.add(points.subarray(0, 900));
-    const left = horizon.screen(points);
-    expect(left.length).toBeLessThan(3500);
-    const positions = pointsAt(sphere, [...left]);
-    expect(mergeVisible([{ positions, ids: left }], viewpoint, options)).toEqual(whole.indices);
-  });
-
   it("refuses bad input with a code, and stays as it was", () => {
     const horizon = new Horizon(viewpoint, options);
     horizon.add(sphere);
