@@ -4,9 +4,62 @@
 
 export function naive(name: string, content: Uint8Array): number[] | undefined {
   if (name.endsWith(".e57")) return undefined;
+  // Of points3D.txt, only whether the command and the page read the same is compared.
+  if (name.endsWith(".txt")) return undefined;
+  if (name.endsWith(".npy")) return npy(content);
+  if (name.endsWith(".bin")) return name === "points3D.bin" ? colmap(content) : floats(content, name);
   if (name.endsWith(".ply")) return ply(content);
   if (name.endsWith(".ptx")) return ptx(latin(content));
   return name.endsWith(".pcd") ? pcd(content) : table(new TextDecoder().decode(content));
+}
+
+const viewOf = (content: Uint8Array) => new DataView(content.buffer, content.byteOffset, content.byteLength);
+
+/** An array, if its header is written as NumPy writes it. */
+function npy(content: Uint8Array): number[] | undefined {
+  const length = viewOf(content).getUint16(8, true);
+  const head = latin(content.subarray(0, 10 + length));
+  const said =
+    /^\x93NUMPY\x01\x00..\{'descr': (.*), 'fortran_order': (True|False), 'shape': \((\d+), ?(\d*)\), \}\n$/s.exec(head);
+  if (said === null) return undefined;
+  const [, types = "", order, ...sizes] = said;
+  const [count, width] = [Number(sizes[0]), sizes[1] === "" ? 1 : Number(sizes[1])];
+  const all = [...types.matchAll(/\('(\w+)', '([<>])([fiu]\d)'\)/g)];
+  const one = /^'([<>])([fiu]\d)'$/.exec(types);
+  if (one === null && `[${all.map(([text]) => text).join(", ")}]` !== types) return undefined;
+  const fields = one
+    ? Array.from({ length: width }, (_, i) => ["xyz"[i] ?? "", ...one.slice(1)])
+    : all.map((field) => field.slice(1));
+  const sizeOf = (field: string[]) => Number(field[2]![1]);
+  const row = fields.reduce((sum, field) => sum + sizeOf(field), 0);
+  const start = 10 + length;
+  if (start + count * row > content.length) fail();
+  return Array.from({ length: 3 * count }, (_, k) => {
+    const column = fields.findIndex(([name]) => name === "xyz"[k % 3]);
+    const before = fields.slice(0, column).reduce((sum, field) => sum + sizeOf(field), 0);
+    const i = Math.floor(k / 3);
+    const [, bytes, type] = fields[column] ?? fail();
+    const at = order === "True" ? (column * count + i) * sizeOf(fields[column]!) : i * row + before;
+    return number(viewOf(content), start + at, type!, bytes === "<");
+  });
+}
+
+/** A scan of floats. */
+function floats(content: Uint8Array, name: string): number[] {
+  const width = [name.endsWith(".pcd.bin") ? 5 : 4, 5].find((each) => content.length % (4 * each) === 0) ?? fail();
+  const values = Array.from({ length: content.length / 4 }, (_, i) => number(viewOf(content), 4 * i, "f4", true));
+  return values.filter((_, i) => i % width < 3);
+}
+
+/** Points of COLMAP, each with a track. */
+function colmap(content: Uint8Array): number[] {
+  const found: number[] = [];
+  let [left, at] = [number(viewOf(content), 0, "u8", true), 8];
+  for (; left > 0; left--) {
+    found.push(...[8, 16, 24].map((place) => number(viewOf(content), at + place, "f8", true)));
+    at += 51 + 8 * number(viewOf(content), at + 43, "u8", true);
+  }
+  return at === content.length ? found : fail();
 }
 
 /** Scans that are not turned. */

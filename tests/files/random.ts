@@ -2,7 +2,7 @@
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
 
-import { binary, literals, packed, PLY_FORMATS, type Value } from "./valid";
+import { binary, literals, npy, packed, PLY_FORMATS, type Value } from "./valid";
 
 export interface ValidFile {
   kind: string;
@@ -92,7 +92,59 @@ function someNumber(random: Random): number {
 export function validFile(random: Random): ValidFile {
   const rows = Array.from({ length: 1 + random.below(5) }, () => [0, 1, 2].map(() => someNumber(random)));
   const common = [plyFile, pcdFile, tableFile];
-  return random.of([...common, ...common, ptxFile, e57File])(random, rows);
+  return random.of([...common, ...common, ptxFile, e57File, npyFile, scanFile, colmapFile])(random, rows);
+}
+
+const KINDS = { f4: "Float32", f8: "Float64" } as const;
+
+/** An array of NumPy: in any order of bytes and of numbers, flat or with names. */
+function npyFile(random: Random, rows: readonly number[][]): ValidFile {
+  const [order, type, width] = [random.of(["<", ">"]), random.of(["f4", "f8"] as const), 3 + random.below(3)];
+  const table = rows.map((row, i) => [...row, i, 7].slice(0, width));
+  const isNamed = random.below(3) === 0;
+  const isFortran = !isNamed && random.below(3) === 0;
+  const lines = isFortran ? table[0]!.map((_, column) => table.map((row) => row[column]!)) : table;
+  const names = ["x", "y", "z", "red", "id"].slice(0, width).map((name) => `('${name}', '${order}${type}')`);
+  const content = npy(
+    isNamed ? `[${names.join(", ")}]` : `'${order}${type}'`,
+    isNamed ? `${rows.length},` : `${rows.length}, ${width}`,
+    binary(
+      lines.flatMap((line) => line.map((value): Value => [value, KINDS[type]])),
+      order === "<",
+    ),
+    isFortran ? "True" : "False",
+  );
+  return { kind: "NumPy", name: "fuzz.npy", content, points: rows.flat() };
+}
+
+/** A scan of KITTI or nuScenes. */
+function scanFile(random: Random, rows: readonly number[][]): ValidFile {
+  const [width, name] = random.of([[4, "fuzz.bin"], [5, "fuzz.pcd.bin"]] as const); // prettier-ignore
+  const values = rows.flatMap((row, i) => [...row, 0.5, i].slice(0, width));
+  const content = binary(values.map((value): Value => [value, "Float32"]), true); // prettier-ignore
+  return { kind: "floats", name, content, points: rows.flat() };
+}
+
+/** Points of COLMAP, each with the cameras that saw it. */
+function colmapFile(random: Random, rows: readonly number[][]): ValidFile {
+  const isText = random.below(2) === 0;
+  const tracks = rows.map((_, i) => Array.from({ length: 2 * (i % 3) }, (__, k) => k));
+  const lines = rows.map((row, i) => [i + 1, ...row, i, 8, 9, 0.25, ...tracks[i]!].join(" "));
+  const long = (value: number): Value[] => [[value, "Int32"], [0, "Int32"]]; // prettier-ignore
+  const records = rows.flatMap((row, i): Value[] => [
+    ...long(i + 1),
+    ...row.map((value): Value => [value, "Float64"]),
+    ...[i, 8, 9].map((value): Value => [value, "Uint8"]),
+    [0.25, "Float64"],
+    ...long(tracks[i]!.length / 2),
+    ...tracks[i]!.map((value): Value => [value, "Int32"]),
+  ]);
+  const content = isText
+    ? Buffer.from(
+        [...(random.below(2) === 0 ? ["# POINT3D_ID, X, Y, Z, R, G, B, ERROR, TRACK[]"] : []), ...lines, ""].join("\n"),
+      )
+    : binary([...long(rows.length), ...records], true);
+  return { kind: "COLMAP", name: isText ? "points3D.txt" : "points3D.bin", content, points: rows.flat() };
 }
 
 /** One of the two scans that a test has made elsewhere. */

@@ -379,7 +379,11 @@ describe("in a process of its own, each format is read without a request and wit
   const RUNTIMES = [
     [process.execPath, "--input-type=module", "-e"],
     ["deno", "eval"],
-  ].filter(([program]) => spawnSync(program!, ["--version"]).status === 0);
+  ].filter(([program]) => {
+    const isThere = spawnSync(program!, ["--version"]).status === 0;
+    if (!isThere) console.log(`skipped ${program}: there is none`);
+    return isThere;
+  });
   const files = eachFormat();
   const cases = RUNTIMES.flatMap((runtime) => Object.keys(files).map((name) => [name, runtime] as const));
   it.each(cases)("%s: %o", (name, [program, ...args]) => {

@@ -38,7 +38,10 @@ export async function readTable(reading: Reading): Promise<CloudFile> {
   let builder: CloudBuilder | undefined;
   let isColmap = false;
   for await (const { texts: given, number, end, places } of lines(await textOf(reading), 0)) {
-    isColmap ||= number === 1 && COLMAP.test(given[0] ?? "");
+    if (number === 1 && (given[0]!.startsWith("# 3D point list") || /points3D\.txt$/i.test(reading.name))) {
+      isColmap = true;
+      rows.take("# id x y z red green blue error", 0, () => []);
+    }
     const texts = isColmap ? given.map(withoutTrack) : given;
     const at = reading.records ? places() : undefined;
     for (let line = 0; line < texts.length; line++) {
@@ -79,12 +82,9 @@ export async function readTable(reading: Reading): Promise<CloudFile> {
   };
 }
 
-const COLMAP = /^# 3D point list/;
-
 /** A line of COLMAP's points without the images that see the point, of which each has its own number. */
 function withoutTrack(line: string): string {
-  if (line.startsWith("#")) return /POINT3D_ID/.test(line) ? "# id x y z red green blue error" : "#";
-  return line.split(" ", 8).join(" ");
+  return line.startsWith("#") ? "#" : line.split(" ", 8).join(" ");
 }
 
 /** The number in a column besides x, y and z. A word that is none is missing. */
