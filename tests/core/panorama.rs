@@ -425,12 +425,12 @@ fn each_pixel_is_that_of_the_triangle_around_its_ray() {
         let triples = pairs.flat_map(|(a, b)| (b + 1..count).map(move |c| [a, b, c]));
         // Those with no other direction beyond their plane, which has the viewpoint behind it.
         let triangles: Vec<_> = triples
-            .filter_map(|corners| {
+            .filter(|corners| {
                 let [a, b, c] = corners.map(|k| places[k].normalize());
                 let normal = (b - a).cross(c - a).normalize();
                 let normal = normal * normal.dot(a).signum();
                 let is_behind = |p: &DVec3| normal.dot(p.normalize() - a) < 1e-9;
-                places.iter().all(is_behind).then_some(corners)
+                places.iter().all(is_behind)
             })
             .collect();
         let mut is_sky = vec![None; triangles.len()];
