@@ -2,7 +2,7 @@
 import type { Reading } from "./cloud-file.js";
 import { bytesOf, numberReader, type NumberType } from "./numbers.js";
 import { FormatProblem } from "./problem.js";
-import { viewOf } from "./source.js";
+import { isTooMuch, viewOf } from "./source.js";
 
 interface BufferView {
   buffer: number;
@@ -59,6 +59,9 @@ export class GltfData {
   readonly bytesBeside: number;
   readonly #json: GltfJson;
   readonly #buffers: readonly (Uint8Array<ArrayBuffer> | undefined)[];
+  /** Compressed views of buffers, and the bytes of all of them. */
+  readonly #views = new Map<Meshopt, Promise<Uint8Array>>();
+  #unpackedBytes = 0;
 
   private constructor(json: GltfJson, buffers: readonly (Uint8Array<ArrayBuffer> | undefined)[], bytesBeside: number) {
     [this.#json, this.#buffers, this.bytesBeside] = [json, buffers, bytesBeside];
@@ -162,7 +165,11 @@ export class GltfData {
     const given = this.#json.bufferViews?.[at];
     if (given === undefined) throw new FormatProblem(`its bufferView ${at} is missing`);
     const packed = MESHOPT.map((name) => given.extensions?.[name]).find((each) => each !== undefined);
-    if (packed !== undefined) return { view: viewOf(await this.#unpacked(packed)), stride: packed.byteStride };
+    if (packed !== undefined) {
+      const bytes = this.#views.get(packed) ?? this.#unpacked(packed);
+      this.#views.set(packed, bytes);
+      return { view: viewOf(await bytes), stride: packed.byteStride };
+    }
     return { view: viewOf(this.#bytes(given)), stride: given.byteStride };
   }
 
@@ -178,8 +185,10 @@ export class GltfData {
     const source = this.#bytes(packed);
     const { count, byteStride, mode, filter } = packed;
     const size = count * byteStride;
-    if (!(size > 0 && size <= 1000 * source.length)) {
-      throw new FormatProblem("a compressed bufferView promises too much");
+    this.#unpackedBytes += size;
+    const held = this.#buffers.reduce((sum, bytes) => sum + (bytes?.length ?? 0), 0);
+    if (!(size > 0) || isTooMuch(this.#unpackedBytes, held)) {
+      throw new FormatProblem(`its compressed views promise ${this.#unpackedBytes} bytes in ${held}`);
     }
     const { MeshoptDecoder } = await import("three/addons/libs/meshopt_decoder.module.js").catch((cause: unknown) => {
       throw new FormatProblem("it is compressed with meshopt, which needs the package three: npm install three", {

@@ -5,7 +5,7 @@ import { type Axes, type Field, type Group, rowBytes, fieldsSaid, listsIn } from
 import { headerLines, type Line, restSays, wordsOf } from "./text.js";
 import type { CloudFile, Place, Reading } from "./cloud-file.js";
 import { checkEnd, endOfRows, otherColumns, readBinaryRows, readTextRows } from "./read-rows.js";
-import { bytesSource, checkByteLength, viewOf } from "./source.js";
+import { bytesSource, checkByteLength, isTooMuch, viewOf } from "./source.js";
 
 /** The largest size of a PCD header in bytes. */
 export const LONGEST_PCD_HEADER = 1 << 16;
@@ -158,16 +158,14 @@ function unpackedRows(body: Uint8Array, group: Group, found: Contradictions): Ui
  * from up to 8 kB back.
  */
 function unpackLzf(packed: Uint8Array, length: number): Uint8Array<ArrayBuffer> {
-  // Three bytes unpack to 264 bytes at most.
-  const most = Math.min(length, 88 * packed.length);
-  const unpacked = new Uint8Array(most);
+  const unpacked = new Uint8Array(length);
   // A fault behind the last byte is a fault, too.
   const before = (to: number) => unpacked.subarray(0, Math.max(0, Math.min(to, length - 1)));
   let [from, to] = [0, 0];
   while (from < packed.length) {
     const control = packed[from++]!;
     if (control < 32) {
-      const run = packed.subarray(from, from + Math.min(control + 1, most - to));
+      const run = packed.subarray(from, from + Math.min(control + 1, length - to));
       unpacked.set(run, to);
       from += run.length;
       to += run.length;
@@ -177,7 +175,7 @@ function unpackLzf(packed: Uint8Array, length: number): Uint8Array<ArrayBuffer> 
     let count = (control >> 5) + 2;
     if (count === 9) count += packed[from++] ?? NaN;
     const back = ((control & 31) << 8) + (packed[from++] ?? NaN) + 1;
-    if (!(back <= to && to + count <= most)) return before(to);
+    if (!(back <= to && to + count <= length)) return before(to);
     // Bytes are copied one by one, because a copy may repeat bytes that it has just written.
     for (let i = 0; i < count; i++, to++) unpacked[to] = unpacked[to - back]!;
   }
@@ -211,7 +209,11 @@ async function readPoints(reading: Reading, { data, points: group, axes, end, li
   }
   const { size } = reading.source;
   checkByteLength(size);
-  checkByteLength(rowBytes(group.fields) * group.count);
+  const bytes = rowBytes(group.fields) * group.count;
+  checkByteLength(bytes);
+  if (isTooMuch(bytes, size)) {
+    throw new FormatProblem(`it promises ${bytes} bytes in ${size}; write it without compression`);
+  }
   const found = new Contradictions(reading.damaged);
   const rows = unpackedRows(await reading.source.read(end, size), group, found);
   const count = rows.length / rowBytes(group.fields);

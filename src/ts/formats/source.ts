@@ -126,23 +126,33 @@ function placesOf(bytes: Uint8Array, count: number, at: number): Float64Array {
   return places;
 }
 
-/** So many bytes are unpacked of any file. Beyond them, no file of points is so many times as large as its packing. */
-const [SURELY, RATIO] = [1 << 26, 100];
+/** So many bytes are unpacked of any file. Beyond them, hardly a file of points is so many times as large as its packing. */
+const [SURELY, RATIO] = [1 << 26, 25];
+
+/** Whether so many bytes are too many to be unpacked from so few. It is asked before memory is taken. */
+export function isTooMuch(unpacked: number, packed: number, ratio = RATIO): boolean {
+  return unpacked > SURELY && unpacked > ratio * packed;
+}
 
 /** A file that was packed with gzip, unpacked and without the ending of its name. Any other file as it is. */
 export async function unpacked<File extends { source: Source; name: string }>(file: File): Promise<File> {
-  const [first, second] = await file.source.read(0, 2);
+  const { size, read } = file.source;
+  const [first, second] = await read(0, 2);
   if (first !== 0x1f || second !== 0x8b) return file;
+  // A packing ends with the length of what it holds. One in several parts ends with that of the last part.
+  const end = await read(Math.max(0, size - 4), size);
+  const promised = end.length < 4 ? 0 : viewOf(end).getUint32(0, true);
+  const refuse = (bytes: number) => {
+    const says = `is damaged, has several parts, or holds ${number.format(bytes)} bytes`;
+    throw new FormatProblem(`it is packed with gzip, and the packing ${says}; unpack it first`);
+  };
+  if (isTooMuch(promised, size) || promised > MOST_AT_ONCE) refuse(promised);
   // Blobs may lie on a disk, and thousands of small arrays cost more than their bytes.
   let parts: BlobPart[] = [];
   let length = 0;
   for await (const part of unpackedParts(file.source)) {
     length += part.length;
-    checkByteLength(length);
-    if (length > SURELY && length > RATIO * file.source.size) {
-      const times = Math.round(length / file.source.size);
-      throw new FormatProblem(`it is packed with gzip to less than 1/${times} of its size, as no points are`);
-    }
+    if (length > promised && length > SURELY) refuse(length);
     if (parts.push(part) > 1000) parts = [new Blob(parts)];
   }
   return { ...file, source: blobSource(new Blob(parts)), name: file.name.replace(/\.gz$/i, "") };

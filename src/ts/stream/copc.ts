@@ -25,28 +25,31 @@ function hasColors({ format }: ChunkLayout): boolean {
   return format > 6;
 }
 
-/**
- * Decompresses the coordinates of one chunk of points: x, y, z as integers. If there is an array for colors, red, green and
- * blue of each point are written to it.
- */
+/** Decompresses one chunk of points: x, y, z as integers, and red, green and blue of each point if they are wanted. */
 function decompress(
   name: string,
   key: string,
   chunk: Uint8Array,
   count: number,
   decoder: LazDecoder,
-  colors?: Uint16Array,
-): Int32Array {
-  const integers = new Int32Array(3 * count);
+  isColored: boolean,
+): { integers: Int32Array; colors: Uint16Array<ArrayBuffer> | undefined } {
+  let integers = new Int32Array();
+  let colors: Uint16Array<ArrayBuffer> | undefined;
   let at = 0;
   const says = decoder.decode(chunk, count, (point, from) => {
+    if (at === 0) {
+      // The decoder knows that the chunk may hold so many.
+      integers = new Int32Array(3 * count);
+      if (isColored) colors = new Uint16Array(3 * count);
+    }
     for (let axis = 0; axis < 3; axis++, at++) {
       integers[at] = point.getInt32(from + 4 * axis, true);
       if (colors) colors[at] = point.getUint16(from + COLORS_AT + 2 * axis, true);
     }
   });
   if (says !== undefined) throw broken(name, `node ${key} ${says}`);
-  return integers;
+  return { integers, colors };
 }
 
 type Library = typeof import("copc");
@@ -113,8 +116,7 @@ class CopcTree extends Tree {
     const chunk = await readRange(name, this.#read, node.part, signal);
     const module = await this.#wasm();
     this.#decoder ??= new LazDecoder(module, this.#layout);
-    const colors = this.#isColored ? new Uint16Array(3 * node.count) : undefined;
-    const integers = decompress(name, node.key, chunk, node.count, this.#decoder, colors);
+    const { integers, colors } = decompress(name, node.key, chunk, node.count, this.#decoder, this.#isColored);
     return { positions: this.placed(node, integers), colors };
   }
 

@@ -1,7 +1,7 @@
 // Which bytes of a LAZ file are which of its points, and their decoder.
 import type { WasmModule } from "../../instance/compile.js";
 import { type Contradictions, FormatProblem } from "../problem.js";
-import { type Source, viewOf } from "../source.js";
+import { isTooMuch, type Source, viewOf } from "../source.js";
 import { FilesWasm } from "../wasm.js";
 import type { LasHeader } from "./header.js";
 
@@ -31,9 +31,8 @@ const ONE_CHUNK = 1;
 const FIRST_LAYERED = 6;
 /** The number of points of a chunk, if the table gives a number for each. Some writers give 0. */
 const VARIABLE = [0, 2 ** 32 - 1];
-const MOST_CHUNKS = 2 ** 26;
-/** Points that are all the same take less than one byte each. More of them than this in one byte are a lie. */
-const MOST_IN_A_BYTE = 4096;
+/** Grids without heights are 400 times as large as their compressed points. */
+const RATIO = 500;
 
 export function lazDamaged(cause?: unknown): FormatProblem {
   return new FormatProblem("its compressed points cannot be decompressed", { cause });
@@ -49,6 +48,9 @@ export class LazDecoder {
   readonly #layout: ChunkLayout;
   readonly #version: number;
   #wasm!: FilesWasm;
+  /** The bytes of all chunks so far, and of their points. */
+  #packed = 0;
+  #unpacked = 0;
 
   /** @param version that of the parts of a point, in the record of LAZ */
   constructor(module: WasmModule, layout: ChunkLayout, version = layout.format < FIRST_LAYERED ? 2 : 3) {
@@ -72,7 +74,11 @@ export class LazDecoder {
     try {
       this.#wasm.put(chunk);
       const points = this.#wasm.answer(this.#wasm.functions.begin_chunk(count)) >>> 0;
-      if (points > MOST_IN_A_BYTE * chunk.length) return `promises ${points} points in ${chunk.length} bytes`;
+      this.#packed += chunk.length;
+      this.#unpacked += Math.max(points, count) * rowBytes;
+      if (isTooMuch(this.#unpacked, this.#packed, RATIO)) {
+        return `promises ${Math.max(points, count)} points in ${chunk.length} bytes`;
+      }
       if (points !== count) says = `is listed with ${count} points, but holds ${points}`;
       for (;;) {
         const rows = this.#wasm.answer(this.#wasm.functions.next_points());
@@ -185,7 +191,7 @@ async function placeOfTable({ start }: LasHeader, { size, read }: Source): Promi
 
 /** The lengths and, if they differ, the numbers of points of all chunks. Undefined if they do not fill the place before. */
 async function readTable(
-  { start, count }: LasHeader,
+  { start, count, rowBytes }: LasHeader,
   source: Source,
   at: number,
   isVariable: boolean,
@@ -193,8 +199,8 @@ async function readTable(
 ): Promise<ReturnType<LazDecoder["table"]>> {
   const top = viewOf(await source.read(at, at + 8));
   const chunks = top.getUint32(4, true);
-  // Each chunk holds a point.
-  if (top.getUint32(0, true) !== 0 || chunks > Math.min(count, MOST_CHUNKS)) return undefined;
+  // Each chunk holds a point, and its first one is not compressed.
+  if (top.getUint32(0, true) !== 0 || chunks > Math.min(count, (at - start - 8) / rowBytes)) return undefined;
   const table = decoder.table(await source.read(at, at + 8 + 16 * chunks + 64), isVariable);
   const end = table?.lengths.reduce((sum, length) => sum + length, start + 8);
   return end === at ? table : undefined;
