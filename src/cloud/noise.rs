@@ -15,7 +15,7 @@ use crate::cloud::plane::off_plane;
 use crate::cloud::points::Points;
 use crate::cloud::quadric::off_quadric;
 use crate::cloud::sheets::{LOW, NEAR, PLACES, Sample, are_sheets, next_sheet, off_two_planes};
-use crate::cloud::statistics::mean_distance;
+use crate::cloud::statistics::{Statistics, mean_distance};
 use crate::cloud::surface;
 use crate::cloud::surface::SAMPLES;
 
@@ -35,6 +35,8 @@ pub(crate) const CLEAN: f64 = 0.04;
 /// 1.29, noisy objects at most 1.57, scans that overlap 1.89 and more.
 const EVEN: f64 = 1.8;
 const VERY_LOW: usize = 5;
+/// Points that lie off less than this, in spacings, are only rounded. Scanners give 0.007 and more.
+const EXACT: f64 = 0.002;
 /// Above half of this, the measured noise is too small: where noise is as large as the spacing, near points are
 /// those of like noise. Measured on spheres with noise of 0.1 to 2 spacings.
 const MOST: f64 = 0.53;
@@ -91,6 +93,8 @@ pub(crate) struct Noise {
     pub ratio: f64,
     /// [`Surface::Layered`] also stands for layers that the planes of neighbors may join.
     pub surface: Surface,
+    /// Whether points are off their quadrics everywhere alike, and by more than roundings.
+    is_measured: bool,
     /// Whether it grows with the surroundings, as what is rough does, and layers do not.
     pub is_rough: bool,
     /// What takes the place of the gap between samples where a surface was measured by a scanner.
@@ -109,12 +113,14 @@ impl Noise {
         let longest = surface::longest(&spacings)?;
         let usual = low(&spacings, 50)?;
         let cut = surface::cut_off(spacings, longest);
-        let (surface, ratio) = measured.surface(points.len())?;
+        let is_even = measured.unevenness()? < EVEN;
+        let (surface, ratio) = measured.surface(points.len(), is_even)?;
         let mut noise = Self {
             spacing: surface::mean(&cut),
             usual,
             ratio,
             surface,
+            is_measured: is_even && low(&measured.ratios[0], LOW)? > EXACT,
             is_rough: measured.is_rough()?,
             gap: None,
             next_sheet: f64::INFINITY,
@@ -146,6 +152,16 @@ impl Noise {
                 let cube = share * share * share;
                 self.ratio * (1.0 + cube * cube) * self.spacing
             }
+        }
+    }
+
+    /// How many times wider gaps count. Between the rings of a scanner there is surface, and it is seen from its station.
+    /// Parts made of triangles are even nowhere: by 6 times and more.
+    pub(crate) fn widening(&self, statistics: &Statistics) -> f64 {
+        if self.is_measured {
+            1.0
+        } else {
+            statistics.widening
         }
     }
 
@@ -249,13 +265,13 @@ impl Measured {
     /// What the cloud is, and its noise in spacings. A sensor's noise is the same everywhere. Registered
     /// scans lie beside each other only where they overlap, and what is rough is so in places: there the
     /// median counts.
-    fn surface(&self, count: usize) -> Result<(Surface, f64), OutOfMemory> {
+    fn surface(&self, count: usize, is_even: bool) -> Result<(Surface, f64), OutOfMemory> {
         let [small, large] = &self.ratios;
         let everywhere = TO_DEVIATION * constant(low(small, LOW)?, low(large, LOW)?);
         let mut constants = with_capacity(self.samples.len())?;
         constants.extend(self.samples.iter().map(|sample| sample.noise));
         let in_places = TO_DEVIATION * low(&constants, 50)?;
-        let (surface, ratio, is_noise) = if self.unevenness()? < EVEN {
+        let (surface, ratio, is_noise) = if is_even {
             let least = if self.is_alike()? { CLEAN } else { NOISY };
             (Surface::Noisy, everywhere, everywhere > least)
         } else {

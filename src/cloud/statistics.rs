@@ -33,7 +33,7 @@ pub(crate) struct Statistics {
     /// How many times wider gaps are than the spacings tell, see [`filling::widening`]; 0 without
     /// points.
     pub widening: f64,
-    /// The gap of the sampled spacings, see [`surface::gap`], times `widening`; 0 below two points.
+    /// The gap of the sampled spacings, see [`surface::gap`]; 0 below two points.
     pub gap: f64,
     /// The mean place of the surface: the sampled points, weighted by the area for which each
     /// stands.
@@ -66,7 +66,7 @@ impl Statistics {
             filling::widening(&spacings, longest, n, &point)?
         };
         let spacings = surface::cut_off(spacings, longest);
-        let gap = surface::gap(&spacings) * widening;
+        let gap = surface::gap(&spacings);
         let areas = surface::into_areas(spacings);
         let axes: [[f64; 2]; 3] =
             core::array::from_fn(|axis| surface::moments(&areas, &|number| point(number)[axis]));

@@ -64,6 +64,18 @@ fn a_scanner_sees_its_own_points() {
     }
 }
 
+/// Between few rings there is surface, though no points are on it.
+#[test]
+fn one_hull_sees_most_points_of_few_rings_from_their_station() {
+    let station = [0.0, -0.5, 0.0];
+    for rings in [16, 32] {
+        let scanner = Scanner { rings, ..SPINNING };
+        let points = scanner.scan(station, &mut Rng::new(1));
+        let [now, _, _] = wrong(&points, station, &Options::default());
+        assert!(now < 6.0, "{rings} rings: {now}");
+    }
+}
+
 /// Leaves the station in steps of 10 cm: the largest share of labels that a step changes, and the
 /// mean share of wrong ones, in percent.
 fn leave(points: &[Measured], station: Place, axis: usize, steps: i32) -> [f64; 2] {

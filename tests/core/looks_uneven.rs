@@ -69,8 +69,8 @@ fn the_scales_are_larger_where_points_leave_much_empty() {
         tight / (0.28 * cloud.spacing().unwrap())
     };
     assert_eq!(scale(&turned(60, 120)), 1.0);
-    let rows = scale(&turned(20, 300));
-    // The fifth power of a share: 2 % of it are 10 % here. Which points are sampled decides that much.
+    let rows = scale(&turned(28, 300));
+    // The eighth power of a share: 1 % of it is 8 % here. Which points are sampled decides that much.
     assert!((2.0..31.0).contains(&rows), "{rows}");
     // No scale is larger.
     let fewer = scale(&turned(12, 300));

@@ -126,7 +126,7 @@ impl Tuning {
             looser = LOOSER * ring;
         }
         let wide = if is_thick { 0.0 } else { 1.0 - ranged };
-        let mut gap = statistics.spacing * libm::pow(statistics.widening, wide);
+        let mut gap = statistics.spacing * libm::pow(noise.widening(statistics), wide);
         gap = larger(gap, gap_of_sheets(noise));
         if growth > 0.0
             && let Some(range) = range
@@ -167,7 +167,7 @@ impl Tuning {
 
     pub(super) fn plain(statistics: &Statistics, noise: &Noise) -> Self {
         // Where samples leave much empty, gaps are wider than the spacing.
-        let gap = statistics.spacing * statistics.widening;
+        let gap = statistics.spacing * noise.widening(statistics);
         let gap = larger(gap, gap_of_sheets(noise));
         Self {
             scales: scales(gap, 1.0),
