@@ -8,7 +8,6 @@ import { changes } from "./border/changes.js";
 import { exports } from "./border/exports.js";
 import { flights } from "./border/flight.js";
 import { isOwn } from "./border/hostile.js";
-import { oneShot, questions } from "./border/single.js";
 import { structured } from "./border/structured.js";
 
 interface Property {
@@ -30,9 +29,7 @@ const entry = <T>(name: string, pace: number, property: fc.IAsyncProperty<T>): P
 });
 
 export const PROPERTIES: readonly Property[] = [
-  entry("any cloud, asked anything, here and in a worker", 100, questions),
-  entry("the whole operation in one call", 300, oneShot),
-  entry("any sequence of changes and questions", 40, changes),
+  entry("any sequence of changes and questions", 20, changes),
   entry("arguments that act while they are read", 100, actingArguments),
   entry("changes that act while they are read", 40, actingChanges),
   entry("memory that goes away while arguments are read", 40, disappearingMemory),

@@ -3,7 +3,7 @@ import { setFlagsFromString } from "node:v8";
 import { describe, expect, it } from "vitest";
 
 import { cappedWasm } from "./capped-wasm";
-import { bumpySphere, freshPackage, randomNumbers, readyPackage } from "./support";
+import { bumpySphere, bunny, freshPackage, randomNumbers, readyPackage } from "./support";
 
 const { PointCloud, hiddenPointRemoval } = await readyPackage();
 
@@ -185,4 +185,15 @@ describe("a cloud in the plane", () => {
     expect(plane.autoRadius(from, "opposite")).toEqual(space.autoRadius([...from, 0], "opposite"));
     expect(hiddenPointRemoval(flat, from, { dimension: 2 })).toEqual(plane.visibleFrom(from));
   });
+});
+
+it("a reconstruction also gives the visible points", () => {
+  const cloud = new PointCloud(bunny());
+  const whole = cloud.reconstruct([0, 5, 20]);
+  const { indices, count, radius, exponent } = cloud.visibleFrom([0, 5, 20]);
+  expect(whole).toMatchObject({ indices, count, radius, exponent, evaluations: 0, inversion: "spherical" });
+  expect(whole.mask().reduce((sum, byte) => sum + byte, 0)).toBe(count);
+  expect(whole.triangles).toBeInstanceOf(Uint32Array);
+  expect(whole.triangles.buffer.byteLength).toBe(whole.triangles.byteLength);
+  expect(cloud.illuminate([[0, 5, 20]])).toBeInstanceOf(Float32Array);
 });

@@ -5,9 +5,9 @@ import { fileURLToPath } from "node:url";
 import { describe, expect, it } from "vitest";
 
 import type { VisibilityOptions } from "hidden-point-removal";
-import { bumpySphere, bunny, problemOf, randomNumbers, readyPackage } from "./support";
+import { bumpySphere, bunny, randomNumbers, readyPackage } from "./support";
 
-const { hiddenPointRemoval, mergeVisible, PointCloud, WorkerPointCloud } = await readyPackage();
+const { hiddenPointRemoval, PointCloud, WorkerPointCloud } = await readyPackage();
 
 const sphere = bumpySphere(1, 3000);
 const farAway = [0, 0, 5];
@@ -125,67 +125,5 @@ describe("a surface with noise", () => {
     noisy.remove(auto);
     expect(noisy.noise).not.toBe(await other.noise);
     await other.dispose();
-  });
-});
-
-describe("a calibration", () => {
-  const scan = cloud;
-  const indices = Uint32Array.from({ length: scan.length }, (_, i) => i);
-  const viewpoint = [0, 0, 0];
-
-  it.each<[RegExp, unknown]>([
-    [/stations.*at least one/, []],
-    [/stations.*at least one/, 7],
-    [/stations\[0\].*one of indices and mask/, [{ viewpoint }]],
-    [/stations\[0\].*one of indices and mask/, [{ viewpoint, indices, mask: new Uint8Array(3) }]],
-    [/stations\[0\].*no points/, [{ viewpoint, indices: [] }]],
-    [
-      /stations\[1\].*index 99999999/,
-      [
-        { viewpoint, indices },
-        { viewpoint, indices: [99_999_999] },
-      ],
-    ],
-    [/mask.*bytes/, [{ viewpoint, mask: new Uint8Array(3) }]],
-    [/stations\[0\].*7/, [7]],
-  ])("refuses %s", async (message, stations) => {
-    const call = () => scan.calibrate(stations as []);
-    expect(await problemOf(call)).toMatchObject({ code: "option", message: expect.stringMatching(message) as string });
-  });
-});
-
-describe("an error names the option", () => {
-  const view = (options: object) => () => cloud.visibleFrom(farAway, options);
-  const plane = new PointCloud([0, 0, 1, 1], { dimension: 2 });
-  const parts = [{ positions: [1, 2, 3], ids: Uint32Array.of(7) }];
-  it.each<[RegExp, () => unknown]>([
-    [/looks.*from 2 to 3.*\b1$/, view({ looks: 1 })],
-    [/looks.*from 2 to 3.*\b4$/, view({ looks: 4 })],
-    [/looks.*2\.5/, view({ looks: 2.5 })],
-    [/looks.*"3"/, view({ looks: "3" })],
-    [/looks.*true/, view({ looks: true })],
-    [/looks and radius/, view({ looks: 3, radius: 100 })],
-    [/looks and radius/, view({ looks: 3, radius: "auto" })],
-    [/looks and exponent/, view({ looks: 3, exponent: 2 })],
-    [/looks and inversion/, view({ looks: 3, inversion: "spherical" })],
-    [/inversion.*"looks"/, view({ inversion: { looks: [1, 2] } })],
-    [/scores.*only with looks/, view({ scores: true })],
-    [/thickness.*only with looks/, view({ thickness: 0.1 })],
-    [/thickness.*at least 0.*-1/, view({ looks: 3, thickness: -1 })],
-    [/thickness.*NaN/, view({ looks: 3, thickness: NaN })],
-    [/thickness.*Infinity/, view({ looks: 3, thickness: Infinity })],
-    [/thickness.*"thin"/, view({ looks: 3, thickness: "thin" })],
-    [/surface.*only with looks/, view({ surface: "clean" })],
-    [/surface.*"rough"/, view({ looks: 3, surface: "rough" })],
-    [/scores.*true or false.*1/, view({ looks: 3, scores: 1 })],
-    [/scores.*several viewpoints/, () => cloud.visibleFromAny([farAway], { looks: 3, scores: true })],
-    [/scores.*several viewpoints/, () => cloud.visibleFromAtLeast(1, [farAway], { looks: 3, scores: true })],
-    [/looks.*reconstruct/, () => cloud.reconstruct(farAway, { looks: 3 })],
-    [/looks.*illuminate/, () => cloud.illuminate([farAway], { looks: 3 })],
-    [/looks.*illuminate/, () => cloud.illuminate([], { looks: 2 })],
-    [/"looks"/, () => mergeVisible(parts, farAway, { radius: 10, looks: 3 } as { radius: number })],
-    [/looks.*dimension 3/, () => plane.visibleFrom([5, 5], { looks: 3 })],
-  ])("%s", async (message, call) => {
-    expect(await problemOf(call)).toMatchObject({ code: "option", message: expect.stringMatching(message) as string });
   });
 });

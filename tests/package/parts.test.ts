@@ -6,13 +6,13 @@ import { afterAll, describe, expect, it } from "vitest";
 
 import { asked, Part, type Place, QUESTIONS, strays } from "../fuzz/border/table";
 import { outcomeOf } from "../fuzz/border/outcome";
+import { inPart } from "../fuzz/border/parts";
 import { bumpySphere, pointsAt } from "./support";
 
 await init();
 const positions = bumpySphere(5, 900);
 const count = positions.length / 3;
 const AT: Place = [0.3, 0.8, 2.5];
-const NONE = 2 ** 32 - 1;
 
 const box = [
   [-0.7, -2, -0.3],
@@ -59,51 +59,8 @@ const OPTIONS = [
   { looks: 3, surface: "layered" },
 ] as const;
 
-type Fields = Record<string, ArrayLike<number> & Iterable<number>>;
-
-/** An answer in the numbers of a cloud of the part alone. For the others it must say that they are not there. */
-function inPart(name: string, answer: unknown, part: Part): unknown {
-  const others = Array.from({ length: part.length }, (_, i) => i).filter((i) => !part.points.includes(i));
-  const silent = (values: ArrayLike<number>, none: number) =>
-    expect(
-      others.filter((i) => !Object.is(values[i], none)),
-      name,
-    ).toEqual([]);
-  if (name === "coverage" || name === "illuminate") {
-    if (name === "coverage") silent(answer as Uint32Array, 0);
-    return part.of(answer as Uint32Array);
-  }
-  if (name === "visibilityMap") {
-    const map = answer as ReturnType<typeof whole.visibilityMap>;
-    return [map.viewpoint, map.hides(positions)];
-  }
-  if (typeof answer !== "object" || answer === null || ArrayBuffer.isView(answer)) return answer;
-  const fields: Record<string, unknown> = { ...answer };
-  const { indices, triangles, scores, seen, unseen, values, offsets } = answer as Fields;
-  if (triangles !== undefined) fields["triangles"] = part.own(triangles);
-  if (scores !== undefined) fields["scores"] = part.of(scores);
-  if (name === "panorama") {
-    fields["indices"] = Array.from(indices!, (index) => (index === NONE ? NONE : (part.own([index])[0] ?? -1)));
-  } else if (indices !== undefined) {
-    fields["indices"] = part.own(indices);
-    expect(part.own(indices)).toHaveLength(indices.length);
-  }
-  if (unseen !== undefined) Object.assign(fields, { seen: part.own(seen!), unseen: part.own(unseen) });
-  if (values !== undefined) {
-    silent(seen!, 0);
-    Object.assign(fields, { values: part.of(values), seen: part.of(seen!) });
-  }
-  if (offsets !== undefined) {
-    const counts = Array.from({ length: part.length }, (_, i) => offsets[i + 1]! - offsets[i]!);
-    silent(counts, 0);
-    fields["offsets"] = part.of(counts);
-  }
-  delete fields["options"];
-  return fields;
-}
-
 const told = async (name: string, part: Part, ask: () => unknown) => {
-  const outcome = await outcomeOf(async () => ({ answer: inPart(name, await ask(), part) }));
+  const outcome = await outcomeOf(async () => ({ answer: inPart(name, await ask(), part, positions) }));
   return "refused" in outcome ? `${outcome.refused}: ${String(outcome.error)}` : (outcome.answer as object);
 };
 

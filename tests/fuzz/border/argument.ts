@@ -1,35 +1,12 @@
-// Arguments, and the contract's rule for each: accepted, refused with a code, or left open.
+// Arguments that hold numbers in every form, and values that hold none.
 import fc from "fast-check";
 
-/**
- * One argument. `make` makes a new one for every call, because a call may use it up. `codes` are the codes that a
- * refusal may have. If `sure` is true, the call must be refused. If it is false, the call may be refused with one of
- * the codes.
- */
-export interface Argument<Meaning = unknown> {
+/** An argument, and what it means in plain numbers. `make` makes a new one for every call, because a call may use it up. */
+export interface Argument<Meaning> {
   name: string;
   make: () => unknown;
-  codes: readonly string[];
-  sure: boolean;
-  /** The meaning of an accepted argument, in plain numbers and objects. */
   meaning: Meaning;
 }
-
-export const good = <M>(name: string, meaning: M, make: () => unknown = () => meaning): Argument<M> => ({
-  name,
-  make,
-  codes: [],
-  sure: false,
-  meaning,
-});
-
-export const bad = <M>(code: string, name: string, make: () => unknown, meaning: M): Argument<M> => ({
-  name,
-  make,
-  codes: [code],
-  sure: true,
-  meaning,
-});
 
 /** Makes the report of a failed case print the name of the argument. */
 export function named<T extends { name: string }>(arbitrary: fc.Arbitrary<T>): fc.Arbitrary<T> {
@@ -146,9 +123,11 @@ export function growing(bytes: number, most: number): Float64Array {
 export function dressed(numbers: readonly number[]): fc.Arbitrary<Argument<readonly number[]>> {
   const fitting = DRESSES.filter(([, , holds]) => holds(numbers));
   return named(
-    fc
-      .constantFrom(...fitting)
-      .map(([dress, put]) => good(`${dress} of [${numbers.join(", ")}]`, numbers, () => put(numbers))),
+    fc.constantFrom(...fitting).map(([dress, put]) => ({
+      name: `${dress} of [${numbers.join(", ")}]`,
+      make: () => put(numbers),
+      meaning: numbers,
+    })),
   );
 }
 

@@ -1,7 +1,6 @@
 // Structured clouds, where points coincide, or lie on one line or in one plane, and places in and on them.
 import fc from "fast-check";
 import { type Argument, dressed, named } from "./argument.js";
-import { coordinates } from "./points.js";
 
 export type Place = readonly [number, number, number];
 
@@ -13,6 +12,17 @@ export interface Scene {
   length: number;
   /** Viewpoints on points, between points, in the planes of walls, inside and outside. */
   place: fc.Arbitrary<Place>;
+}
+
+/** Small whole numbers. Every typed array holds them. Many points coincide, or lie on one line or in one plane. */
+const coordinate = fc.oneof(
+  { weight: 4, arbitrary: fc.integer({ min: 0, max: 6 }) },
+  { weight: 1, arbitrary: fc.double({ noNaN: true, min: -9, max: 9 }) },
+);
+
+export function coordinates(dimension: number, most: number): fc.Arbitrary<number[]> {
+  const point = fc.array(coordinate, { minLength: dimension, maxLength: dimension });
+  return fc.array(point, { maxLength: most }).map((points) => points.flat());
 }
 
 const range = (count: number) => [...Array(count).keys()];
