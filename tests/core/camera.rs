@@ -1,12 +1,10 @@
 //! What a camera sees: the view from its place, cut to its image.
 
 use hidden_point_removal::{
-    Camera, CameraModel, Convention, Error, MapOptions, Options, Placing, PointCloud, Pose, Seat,
-    Within,
+    Camera, CameraModel, Convention, Error, MapOptions, Options, PointCloud, Pose,
 };
 
 use crate::common::cameras::{LENSES, camera, matrix};
-use crate::common::placing::eager;
 use crate::common::rng::Rng;
 use crate::common::shapes;
 use crate::test;
@@ -55,6 +53,8 @@ fn cameras_that_are_none_are_refused() {
         let refusal = refusal.unwrap_err();
         assert_eq!(refusal.code(), "viewpoint");
         assert_eq!(camera.cone().unwrap_err().to_string(), refusal.to_string());
+        let counted = cloud.coverage(&[camera], &Options::default());
+        assert_eq!(counted.unwrap_err().to_string(), refusal.to_string());
         refusal.to_string()
     };
     let nan = f64::NAN;
@@ -266,69 +266,4 @@ fn a_point_beside_the_camera_is_outside_of_every_image() {
             .unwrap();
         assert_eq!(seen.visibility.count(), 0, "{model:?}");
     }
-}
-
-#[test]
-fn cameras_stand_where_viewpoints_stand() {
-    let mut rng = Rng::new(3);
-    let points = shapes::bumpy(&mut rng, 1500);
-    let cloud = PointCloud::new(&points).unwrap();
-    let places = [[0.1, 0.2, 1.7], [1.8, 0.0, 0.3], [0.2, 0.1, 1.8]];
-    let mut seats: Vec<Seat> = places
-        .map(|from| camera(&mut rng, from, from.map(|x| -x), Convention::OpenCv).into())
-        .into();
-    seats.push([0.3, -2.0, 1.0].into());
-    let within = Some(Within {
-        distance: Some(2.0),
-        bounds: None,
-    });
-    for options in [Options::default(), Options::default().with_within(within)] {
-        let whole = |seat: &Seat| {
-            cloud
-                .visible_from(seat.position(), &options)
-                .unwrap()
-                .mask()
-        };
-        let mask = |seat: &Seat| match seat {
-            Seat::Camera(camera) => {
-                let seen = cloud.visible_from_camera(camera, &options).unwrap();
-                for (&index, towards) in seen.visibility.indices().iter().zip(&seen.towards) {
-                    let point = points[index as usize];
-                    let away: [f64; 3] = core::array::from_fn(|i| camera.position()[i] - point[i]);
-                    let length = away.iter().map(|x| x * x).sum::<f64>().sqrt();
-                    let error = (0..3).map(|i| (f64::from(towards[i]) - away[i] / length).abs());
-                    assert!(error.fold(0.0, f64::max) < 1e-7);
-                }
-                seen.visibility.mask()
-            }
-            Seat::Viewpoint(_) => whole(seat),
-        };
-        let masks: Vec<Vec<bool>> = seats
-            .iter()
-            .map(|seat| mask(seat).iter().map(|&byte| byte == 1).collect())
-            .collect();
-        let count = |index: usize| masks.iter().filter(|mask| mask[index]).count();
-        let everywhere = whole(&seats[0]);
-        let outside = (0..1500)
-            .filter(|&i| everywhere[i] == 1 && !masks[0][i])
-            .count();
-        assert!(
-            outside > 50,
-            "{outside} visible points outside of the image"
-        );
-        let counts: Vec<u32> = (0..1500).map(|index| count(index) as u32).collect();
-        assert_eq!(cloud.coverage(&seats, &options), Ok(counts));
-        for k in 1..=4 {
-            let seen = cloud.visible_from_at_least(k, &seats, &options).unwrap();
-            let expected = (0..1500u32).filter(|&index| count(index as usize) >= k);
-            assert!(expected.eq(seen.indices().iter().copied()));
-        }
-        let placing = Placing::default();
-        let placed = cloud.place_viewpoints(&seats, &options, &placing).unwrap();
-        let (chosen, gains) = eager(&masks, &[1.0; 1500], 4);
-        assert_eq!((placed.chosen, placed.gains), (chosen, gains));
-    }
-    let wrong = Camera::new(0.0, 1.0, 1.0, 1.0, 2.0, 2.0);
-    let refusal = cloud.coverage(&[wrong], &Options::default()).unwrap_err();
-    assert_eq!(refusal.code(), "viewpoint");
 }

@@ -4,8 +4,9 @@
 
 use hidden_point_removal::{Options, PointCloud};
 
+use crate::checks::sectors;
 use crate::common::shapes::Points;
-use crate::common::{ask, indices_of, oracle, sectors};
+use crate::common::{ask, indices_of, oracle};
 use crate::test;
 
 fn check(points: &[[f64; 3]], radius: f64, expected: &[u32]) {

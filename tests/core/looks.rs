@@ -7,7 +7,6 @@ use hidden_point_removal::{
 };
 
 use crate::common::rng::Rng;
-use crate::common::scenes::{KINDS, Scene};
 use crate::common::{NOWHERE, ask, refused};
 use crate::test;
 
@@ -15,23 +14,6 @@ const FRONT: [f64; 3] = [0.0, 0.0, 5.0];
 
 fn looks(count: usize) -> Options {
     Options::looks(count).with_scores(true)
-}
-
-/// Small, degenerate and larger scenes of every kind, and both numbers of looks.
-fn scenes() -> impl Iterator<Item = (String, Scene, Options, Rng)> {
-    KINDS.iter().flat_map(|kind| {
-        [(1, 9, 3), (2, 30, 2), (3, 30, 3), (4, 400, 3)]
-            .into_iter()
-            .map(|(seed, n, count)| {
-                let title = format!("{count} looks at {} with seed {seed}", kind.name);
-                (title, kind.scene(seed, n), looks(count), Rng::new(seed))
-            })
-    })
-}
-
-fn bits(answer: &Visibility) -> Vec<u32> {
-    let scores = answer.scores().iter();
-    scores.map(|score| score.to_bits()).collect()
 }
 
 #[test]
@@ -59,35 +41,6 @@ fn an_answer_tells_its_looks_and_no_radius() {
 
 fn on_a_grid((i, _): (usize, [f64; 3])) -> [f64; 3] {
     [(i % 7) as f64 * 0.1, (i / 7) as f64 * 0.1, 0.0]
-}
-
-#[test]
-fn a_power_of_two_changes_nothing() {
-    let ahead = [0.6, 0.0, -0.8];
-    for (title, scene, options, _) in scenes() {
-        // Some scenes are near these limits already.
-        if title.contains("scaled") {
-            continue;
-        }
-        let before = ask(&scene.points, scene.viewpoint, &options);
-        let cloud = PointCloud::new(&scene.points).unwrap();
-        let along = cloud.visible_from_direction(ahead, &options).unwrap();
-        // The farthest ones are near the limits of squares. Products of three lengths are out of range.
-        for power in [10, -180, 180, -350, 350, -450, 450] {
-            let scale = 2f64.powi(power);
-            let scaled = |p: [f64; 3]| p.map(|x| x * scale);
-            let points: Vec<_> = scene.points.iter().map(|p| scaled(*p)).collect();
-            let cloud = PointCloud::new(&points).unwrap();
-            let title = format!("{title}, 2^{power}");
-            let after = cloud.visible_from(scaled(scene.viewpoint), &options);
-            let after = after.unwrap();
-            assert_eq!(after.indices(), before.indices(), "{title}");
-            assert_eq!(bits(&after), bits(&before), "{title}");
-            let after = cloud.visible_from_direction(ahead, &options).unwrap();
-            assert_eq!(after.indices(), along.indices(), "{title}, along");
-            assert_eq!(bits(&after), bits(&along), "{title}, along");
-        }
-    }
 }
 
 /// A small plate before a wall, both sampled evenly, seen from the front.

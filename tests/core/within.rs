@@ -1,123 +1,13 @@
 //! Only the points within a distance, a box or a mask take part: the answers are, to the bit,
 //! those of a cloud of these points alone.
 
-use hidden_point_removal::{
-    Exponential, Inversion, Lighting, Options, PointCloud, PointCloudNd, Radius, Within,
-    merge_visible,
-};
+use hidden_point_removal::{Lighting, Options, PointCloud, PointCloudNd, Within, merge_visible};
 
 use crate::common::chosen::{alone, chosen, facts, only};
 use crate::common::rng::Rng;
 use crate::common::shapes;
 use crate::common::{NOWHERE, refused};
 use crate::test;
-
-#[test]
-fn every_option_goes_with_a_choice() {
-    let mut rng = Rng::new(1);
-    let points = shapes::bumpy(&mut rng, 900);
-    let cloud = PointCloud::new(&points).unwrap();
-    let viewpoint = [0.4, 0.3, 2.5];
-    let bounds = Some([[-0.6, -2.0, -0.7], [2.0, 0.8, 2.0]]);
-    let exponential = Inversion::Exponential(Exponential::Auto);
-    let looks = Options::looks(3);
-    // The check `within` asks all others.
-    let all = [
-        looks.with_scores(true),
-        Options::default().with_radius(Radius::Opposite),
-    ];
-    for distance in [None, Some(2.9)] {
-        let within = Within { distance, bounds };
-        let indices = chosen(&points, &within, Some(viewpoint));
-        assert!((300..700).contains(&indices.len()));
-        let expected = alone(&points, &indices);
-        let mapped = Some(&indices[..]);
-        for plain in all {
-            let options = only(within, &plain);
-            let found = cloud.visible_from(viewpoint, &options);
-            let alone = expected.visible_from(viewpoint, &plain);
-            if let (Ok(found), Ok(alone)) = (&found, &alone) {
-                assert_eq!(found.looks(), alone.looks());
-                assert_eq!(found.scores().len(), if plain.scores { 900 } else { 0 });
-                let scores = found.scores().iter().enumerate();
-                let own = scores.filter(|(i, _)| indices.contains(&(*i as u32)));
-                assert!(own.map(|(_, score)| score).eq(alone.scores()));
-            }
-            assert_eq!(facts(found, None), facts(alone, mapped), "{options:?}");
-        }
-        for plain in [Options::default(), Options::inversion(exponential)] {
-            let options = only(within, &plain);
-            let mesh = cloud.reconstruct(viewpoint, &options, None).unwrap();
-            let other = expected.reconstruct(viewpoint, &plain, None).unwrap();
-            let corners = other.triangles.iter();
-            let corners = corners.map(|corners| corners.map(|k| indices[k as usize]));
-            assert_eq!(mesh.triangles, corners.collect::<Vec<_>>());
-            let seen = facts(Ok(mesh.visibility), None);
-            assert_eq!(seen, facts(Ok(other.visibility), mapped));
-        }
-    }
-}
-
-#[test]
-fn each_light_has_its_own_points() {
-    let mut rng = Rng::new(2);
-    let points = shapes::bumpy(&mut rng, 500);
-    let cloud = PointCloud::new(&points).unwrap();
-    let places = [[0.4, 0.3, 2.5], [-2.0, 0.5, 0.1], [0.0, 0.1, 0.2]];
-    let within = Within {
-        distance: Some(2.2),
-        bounds: Some([[-0.9; 3], [0.9; 3]]),
-    };
-    for plain in [
-        Options::default(),
-        Options::inversion(Inversion::Exponential(Exponential::Auto)),
-    ] {
-        let options = only(within, &plain);
-        let mut views = vec![0; points.len()];
-        for place in places {
-            let near = chosen(&points, &within, Some(place));
-            let seen = alone(&points, &near).visible_from(place, &plain).unwrap();
-            for &k in seen.indices() {
-                views[near[k as usize] as usize] += 1;
-            }
-        }
-        let lighting = Lighting {
-            smoothing: 0,
-            ..Lighting::default()
-        };
-        let light = cloud.illuminate(&places, &options, &lighting).unwrap();
-        let expected = views.iter().map(|&views| (views as f64 / 3.0) as f32);
-        assert_eq!(light, expected.collect::<Vec<_>>());
-    }
-}
-
-#[test]
-fn light_and_directions_follow_a_box() {
-    let mut rng = Rng::new(3);
-    let points = shapes::bumpy(&mut rng, 500);
-    let cloud = PointCloud::new(&points).unwrap();
-    let within = Within {
-        distance: None,
-        bounds: Some([[-2.0, -2.0, 0.1], [2.0, 0.5, 2.0]]),
-    };
-    let indices = chosen(&points, &within, None);
-    let part = alone(&points, &indices);
-    let options = only(within, &Options::default());
-    let ahead = [0.1, 0.2, -1.0];
-    assert_eq!(
-        facts(cloud.visible_from_direction(ahead, &options), None),
-        facts(
-            part.visible_from_direction(ahead, &Options::default()),
-            Some(&indices)
-        )
-    );
-    let lights = [[0.0, 0.0, 3.0], [3.0, 0.0, 1.0]];
-    let lighting = Lighting::default();
-    let light = cloud.illuminate(&lights, &options, &lighting).unwrap();
-    let expected = part.illuminate(&lights, &Options::default(), &lighting);
-    let own: Vec<_> = indices.iter().map(|&i| light[i as usize]).collect();
-    assert_eq!(own, expected.unwrap());
-}
 
 #[test]
 fn duplicates_may_be_masked_one_by_one() {
@@ -217,18 +107,4 @@ fn choices_that_make_no_sense_are_refused() {
     let empty = only(distance(0.5), &Options::default());
     let nothing = cloud.visible_from(far, &empty).unwrap();
     assert_eq!((nothing.count(), nothing.radius()), (0, 0.0));
-}
-
-#[test]
-fn a_cloud_in_a_plane_follows_a_choice() {
-    let cloud = PointCloud::new(&[[0.0, 1.0, 0.0], [0.0, 2.0, 0.0], [3.0, 0.0, 0.0]]).unwrap();
-    let within = Within {
-        distance: Some(3.5),
-        bounds: Some([[-1.0, -1.0, 0.0], [1.0, 5.0, 0.0]]),
-    };
-    let options = only(within, &Options::default());
-    let seen = |y: f64| cloud.visible_from([0.0, y, 0.0], &options).unwrap();
-    assert_eq!(seen(5.0).indices(), [1]);
-    assert_eq!(seen(-2.0).indices(), [0]);
-    assert_eq!(seen(-9.0).count(), 0);
 }

@@ -5,6 +5,7 @@ use hidden_point_removal::{Camera, Convention};
 use super::{options, same};
 use crate::common::cameras::{LENSES, along_axes, camera, in_camera, shown};
 use crate::common::cloud_of;
+use crate::common::flip::distance;
 use crate::common::rng::Rng;
 use crate::common::scenes::Scene;
 
@@ -34,6 +35,7 @@ pub fn check(scene: &Scene, rng: &mut Rng) -> Result<(), String> {
             .zip(&seen.pixels)
             .zip(&seen.depths)
             .peekable();
+        let mut towards = seen.towards.iter();
         for &index in whole.indices() {
             let at = shown(&camera, scene.points[index as usize]);
             let Some((([u, v], depth), is_shown)) = found
@@ -61,6 +63,15 @@ pub fn check(scene: &Scene, rng: &mut Rng) -> Result<(), String> {
             }
             let nearest = (at.depth as f32).max(f32::MIN_POSITIVE);
             same(&title("depth"), depth, nearest)?;
+            let away = distance(camera.position(), scene.points[index as usize]);
+            let towards = towards.next().ok_or_else(|| title("a direction too few"))?;
+            let off = (0..3).map(|axis| {
+                let expected = camera.position()[axis] - scene.points[index as usize][axis];
+                (f64::from(towards[axis]) - expected / away).abs()
+            });
+            if away > 0.0 && off.fold(0.0, f64::max) > 1e-7 {
+                return Err(title(&format!("direction {towards:?} of point {index}")));
+            }
         }
         if let Some(((index, _), _)) = found.next() {
             return Err(title(&format!("point {index} is shown, but not visible:")));

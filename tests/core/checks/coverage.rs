@@ -1,10 +1,11 @@
-//! Many viewpoints: the counts of single views, and the greedy choice without any shortcut.
+//! Many viewpoints and cameras: the counts of single views, and the greedy choice without any shortcut.
 
-use hidden_point_removal::{Placing, PointCloud};
+use hidden_point_removal::{Convention, Error, Options, Placing, PointCloud, Seat, Visibility};
 
 use super::{options, same};
+use crate::common::cameras::camera;
 use crate::common::cloud_of;
-use crate::common::placing::{best, eager, masks};
+use crate::common::placing::{best, eager};
 use crate::common::rng::Rng;
 use crate::common::scenes::Scene;
 use crate::common::structured;
@@ -12,10 +13,17 @@ use crate::common::structured;
 pub fn check(scene: &Scene, rng: &mut Rng) -> Result<(), String> {
     let cloud = cloud_of(&scene.points, rng.chance(2));
     let options = options(scene, rng);
-    let mut places: Vec<_> = (0..rng.below(9))
-        .map(|_| structured::viewpoint(rng, &scene.points))
+    let mut places: Vec<Seat> = (0..rng.below(9))
+        .map(|_| {
+            let place = structured::viewpoint(rng, &scene.points);
+            let ahead = rng.direction();
+            match rng.chance(3) {
+                true => camera(rng, place, ahead, Convention::OpenCv).into(),
+                false => place.into(),
+            }
+        })
         .collect();
-    places.push(scene.viewpoint);
+    places.push(scene.viewpoint.into());
     if rng.chance(2) {
         // Equal candidates tie.
         let again = rng.pick(&places);
@@ -23,23 +31,42 @@ pub fn check(scene: &Scene, rng: &mut Rng) -> Result<(), String> {
     }
     let refusal = places
         .iter()
-        .find_map(|&place| cloud.visible_from(place, &options).err());
+        .find_map(|place| view(&cloud, place, &options).err());
     let counts = cloud.coverage(&places, &options);
+    let least = 1 + rng.below(places.len());
+    let several = match least {
+        1 if rng.chance(2) => cloud.visible_from_any(&places, &options),
+        _ => cloud.visible_from_at_least(least, &places, &options),
+    };
+    let several = several.map(Visibility::into_indices);
     if refusal.is_some() {
+        same("refusal", several.err(), refusal)?;
         return same("refusal", counts.err(), refusal);
     }
-    let masks = masks(&cloud, &places, &options);
-    let expected =
-        (0..scene.points.len()).map(|k| masks.iter().filter(|mask| mask[k]).count() as u32);
-    same("coverage", counts, Ok(expected.collect()))?;
+    let views = places.iter().map(|place| view(&cloud, place, &options));
+    let masks = views.collect::<Result<Vec<_>, _>>();
+    let masks = masks.map_err(|error| error.to_string())?;
+    let count = |k: usize| masks.iter().filter(|mask| mask[k]).count();
+    let expected: Vec<u32> = (0..cloud.len()).map(|k| count(k) as u32).collect();
+    let seen = (0..cloud.len() as u32).filter(|&k| expected[k as usize] as usize >= least);
+    same("at least", several, Ok(seen.collect()))?;
+    same("coverage", counts, Ok(expected))?;
     placement(&cloud, &places, &masks, &options, rng)
+}
+
+fn view(cloud: &PointCloud, seat: &Seat, options: &Options) -> Result<Vec<bool>, Error> {
+    let seen = match seat {
+        Seat::Viewpoint(place) => cloud.visible_from(*place, options)?,
+        Seat::Camera(camera) => cloud.visible_from_camera(camera, options)?.visibility,
+    };
+    Ok(seen.mask().iter().map(|&byte| byte == 1).collect())
 }
 
 fn placement(
     cloud: &PointCloud,
-    places: &[[f64; 3]],
+    places: &[Seat],
     masks: &[Vec<bool>],
-    options: &hidden_point_removal::Options,
+    options: &Options,
     rng: &mut Rng,
 ) -> Result<(), String> {
     let n = cloud.len() as u32;

@@ -105,8 +105,9 @@ pub fn check(scene: &Scene, rng: &mut Rng) -> Result<(), String> {
     let after = ask(&cloud_of(&shuffled, rng.chance(2)))?;
     same(&title("shuffled"), bits(&after, &back), expected.clone())?;
 
-    // Strangers come and go. Copies come and stay.
-    let mut changed = cloud_of(points, false);
+    // Strangers come and go between two parts. Copies come and stay.
+    let (first, second) = points.split_at(rng.below(n + 1));
+    let mut changed = cloud_of(first, false);
     let strangers: Vec<_> = (0..1 + rng.below(9)).map(|_| rng.in_ball()).collect();
     changed
         .append(&strangers)
@@ -114,29 +115,36 @@ pub fn check(scene: &Scene, rng: &mut Rng) -> Result<(), String> {
     if rng.chance(2) {
         let _ = from.ask(&changed, &options);
     }
-    let gone: Vec<u32> = (n as u32..(n + strangers.len()) as u32).collect();
+    let begin = first.len() + strangers.len();
+    let gone: Vec<u32> = (first.len() as u32..begin as u32).collect();
     changed.remove(&gone).map_err(|error| error.to_string())?;
-    let after = bits(&ask(&changed)?, &straight);
+    changed.append(second).map_err(|error| error.to_string())?;
+    let present: Vec<usize> = (0..first.len()).chain(begin..changed.len()).collect();
+    let after = bits(&ask(&changed)?, &present);
     same(&title("changed"), after, expected.clone())?;
     changed.append(points).map_err(|error| error.to_string())?;
     let twice = ask(&changed)?;
-    same(&title("copied"), bits(&twice, &straight), expected.clone())?;
+    same(&title("copied"), bits(&twice, &present), expected.clone())?;
     let copies: Vec<usize> = (n + strangers.len()..changed.len()).collect();
     same(&title("copies"), bits(&twice, &copies), expected.clone())?;
 
     // Where no number leaves the range, and along a direction for any length of it.
-    let is_moderate = |x: &f64| *x == 0.0 || (1e-60..1e60).contains(&x.abs());
-    if points
-        .iter()
-        .flatten()
-        .chain(&scene.viewpoint)
-        .all(is_moderate)
-    {
-        let unit = 2f64.powi(rng.integer(-90, 90));
+    let numbers = points.iter().flatten().chain(&scene.viewpoint);
+    let sizes: Vec<f64> = numbers.map(|x| x.abs()).filter(|x| *x > 0.0).collect();
+    let are_from = |least: f64| sizes.iter().all(|size| (least..1.0 / least).contains(size));
+    if are_from(1e-60) {
+        let are_looks = matches!(options.inversion, Inversion::Looks(_));
+        // The largest ones are near the limits of squares: products of three lengths are out of range.
+        let most = if are_looks && are_from(1e-9) { 450 } else { 90 };
+        let unit = 2f64.powi(rng.integer(-most, most));
         let scaled: Vec<_> = points.iter().map(|p| p.map(|x| x * unit)).collect();
         let after = from.times(unit).ask(&cloud_of(&scaled, false), &options);
         let after = after.map_err(|error| title(&error.to_string()))?;
         same(&title("in another unit"), after.indices(), before.indices())?;
+        if are_looks {
+            let after = bits(&after, &straight);
+            same(&title("in another unit"), after, expected.clone())?;
+        }
         let radius = before.radius() * unit;
         let is_spherical = options.inversion == Inversion::Spherical && !along;
         if is_spherical && after.radius() != radius {

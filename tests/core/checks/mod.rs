@@ -9,7 +9,6 @@ use crate::common::rng::Rng;
 use crate::common::scenes::{EXTREME, KINDS, Scene};
 use crate::common::structured;
 
-mod aspects;
 pub mod boxes;
 mod camera;
 mod coverage;
@@ -17,7 +16,7 @@ mod dimensions;
 mod invariance;
 pub mod maps;
 mod oracle;
-mod sectors;
+pub mod sectors;
 mod sees;
 mod slices;
 mod threads;

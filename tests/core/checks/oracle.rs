@@ -1,15 +1,16 @@
-//! Mostly small and degenerate clouds of every kind under every inversion, compared with the definition. Every second
-//! cloud is also asked for a consequence of it (`Aspect`).
+//! Mostly small and degenerate clouds of every kind under every inversion, compared with the definition. Others are also
+//! merged from parts, or seen along an axis.
 
-use hidden_point_removal::{Exponential, Inversion, Options, PointCloud, Visibility};
+use hidden_point_removal::{
+    Exponential, Inversion, Options, PointCloud, Radius, Visibility, merge_visible,
+};
 
-use super::aspects::Aspect;
-use crate::common::definition;
+use super::same;
 use crate::common::degenerate::DEGENERATE;
 use crate::common::flip::{farthest, flip_as};
-use crate::common::indices_of;
 use crate::common::rng::Rng;
 use crate::common::scenes::{EXTREME, KINDS, Scene};
+use crate::common::{definition, indices_of, lower};
 
 /// The most points of a cloud that only the enumeration can decide.
 const FEW: usize = 9;
@@ -69,16 +70,86 @@ pub fn check(scene: &Scene, rng: &mut Rng) -> Result<(), String> {
     };
     let flipped = flipped(scene, &answer);
     let expected = definition::visible(&flipped);
-    super::same("answer", answer.indices(), &indices_of(&expected)[..])?;
+    let expected_indices = indices_of(&expected);
+    same("answer", answer.indices(), &expected_indices[..])?;
     if rng.chance(CROSS_CHECKS) {
         let otherwise = definition::visible_otherwise(&flipped);
         if otherwise.is_some_and(|otherwise| otherwise != expected) {
             return Err("certificates and enumeration disagree".to_string());
         }
     }
-    let aspect = rng.below(2 * Aspect::ALL.len());
-    let more = Aspect::ALL
-        .get(aspect)
-        .and_then(|aspect| aspect.check(scene, &answer, &expected, rng));
-    more.unwrap_or(Ok(()))
+    let (title, both) = match rng.below(12) {
+        0 => {
+            let found = merged(scene, &answer, rng);
+            ("merged", found.map(|found| (found, expected_indices)))
+        }
+        1 => ("along an axis", along_axis(scene, rng)),
+        _ => return Ok(()),
+    };
+    both.map_or(Ok(()), |(found, expected)| same(title, found, expected))
+}
+
+/// The visible points of parts, and some other points, merged. `None` if all points are at the viewpoint.
+fn merged(scene: &Scene, answer: &Visibility, rng: &mut Rng) -> Option<Vec<u32>> {
+    let inversion = answer.inversion();
+    let mut options = Options::inversion(inversion);
+    if !matches!(inversion, Inversion::Exponential(_)) {
+        if answer.radius() == 0.0 {
+            return None;
+        }
+        options.radius = Radius::Absolute(answer.radius());
+    }
+    let mut parts = vec![(Vec::new(), Vec::new()); 1 + rng.below(4)];
+    for (id, &point) in (0..).zip(&scene.points) {
+        loop {
+            let part = rng.below(parts.len());
+            parts[part].0.push(point);
+            parts[part].1.push(id);
+            if !rng.chance(6) {
+                break;
+            }
+        }
+    }
+    // Each part leaves out all or some of its hidden points.
+    let keeps_some = rng.chance(2);
+    for (positions, ids) in &mut parts {
+        let cloud = PointCloud::new(positions).expect("an acceptable part");
+        let mask = cloud
+            .visible_from(scene.viewpoint, &options)
+            .expect("an acceptable view of a part")
+            .mask();
+        let kept = |&k: &usize| mask[k] == 1 || keeps_some && rng.chance(3);
+        let kept: Vec<usize> = (0..ids.len()).filter(kept).collect();
+        *positions = kept.iter().map(|&k| positions[k]).collect();
+        *ids = kept.iter().map(|&k| ids[k]).collect();
+    }
+    let parts: Vec<_> = parts.iter().map(|(p, ids)| (&p[..], &ids[..])).collect();
+    Some(merge_visible(&parts, scene.viewpoint, &options).expect("parts that merge"))
+}
+
+/// The lower boundary of the lifted points, in integers: nothing rounds.
+fn along_axis(scene: &Scene, rng: &mut Rng) -> Option<(Vec<u32>, Vec<u32>)> {
+    const MOST: usize = 14;
+    let is_small = |x: &f64| x.fract() == 0.0 && x.abs() < 1000.0;
+    if scene.points.len() > MOST || !scene.points.iter().flatten().all(is_small) {
+        return None;
+    }
+    let (axis, sign) = (rng.below(3), if rng.chance(2) { 1 } else { -1 });
+    let bend = rng.pick(&[1i64, 2, 4]);
+    let mut direction = [0.0; 3];
+    direction[axis] = 2.5 * sign as f64;
+    let lifted: Vec<[i64; 3]> = scene
+        .points
+        .iter()
+        .map(|p| {
+            let p = p.map(|x| x as i64);
+            let [x, y] = [p[(axis + 1) % 3], p[(axis + 2) % 3]];
+            [x, y, sign * p[axis] + bend * (x * x + y * y)]
+        })
+        .collect();
+    let scale = Exponential::Scale(0.5 / bend as f64);
+    let options = Options::inversion(Inversion::Exponential(scale));
+    let cloud = PointCloud::new(&scene.points).ok()?;
+    let found = cloud.visible_from_direction(direction, &options).ok()?;
+    Some((found.into_indices(), indices_of(&lower::visible(&lifted))))
 }

@@ -4,6 +4,7 @@
 use hidden_point_removal::Options;
 
 use super::same;
+use crate::common::chosen::{only, some_choice};
 use crate::common::cloud_of;
 use crate::common::rng::Rng;
 use crate::common::scenes::{EXTREME, Scene};
@@ -20,8 +21,10 @@ pub fn check(scene: &Scene, rng: &mut Rng) -> Result<(), String> {
     let mut walk = Walk::new(points, scene.viewpoint, scene.options);
     for _ in 0..WALK {
         let mut options = walk.options;
-        if rng.chance(4) {
-            options = Options::inversion(inversion(rng));
+        match rng.below(4) {
+            0 => options = Options::inversion(inversion(rng)),
+            1 => options = Options::looks(2 + rng.below(2)).with_scores(true),
+            _ => {}
         }
         let viewpoint = walk.viewpoint;
         let title = format!("from {viewpoint:?} with {options:?}");
@@ -30,16 +33,29 @@ pub fn check(scene: &Scene, rng: &mut Rng) -> Result<(), String> {
         let mut slices = 0;
         loop {
             if rng.chance(6) {
-                // Another view, whole or begun only.
-                let place = walk.place(rng, 2.0);
+                // Another question, whole or begun only: from elsewhere, with other options, or of some points.
+                let (mut place, mut other) = (viewpoint, options);
+                match rng.below(3) {
+                    0 => place = walk.place(rng, 2.0),
+                    1 => {
+                        other = rng.pick(&[
+                            Options::default(),
+                            Options::exponent(4.0),
+                            Options::looks(3),
+                        ])
+                    }
+                    _ => other = only(some_choice(rng, scene), &options),
+                }
                 slices = 0;
-                let _ = match rng.chance(2) {
-                    true => observer.go_on(place, &options, budget),
-                    false => observer.visible_from(place, &options).map(|_| true),
-                };
+                if rng.chance(2) {
+                    let _ = observer.go_on(place, &other, budget);
+                } else {
+                    let seen = observer.visible_from(place, &other);
+                    same(&title, seen, cloud.visible_from(place, &other))?;
+                }
             }
             match observer.go_on(viewpoint, &options, budget) {
-                Ok(false) if slices < 30 => slices += 1,
+                Ok(false) if slices < 100 => slices += 1,
                 Ok(false) => return Err(format!("{title}: the slices do not end")),
                 Ok(true) => break,
                 Err(refusal) => {

@@ -1,6 +1,6 @@
 //! Points within limits: every answer is that of a cloud of these points alone.
 
-use hidden_point_removal::{Options, PointCloud, Within};
+use hidden_point_removal::{Inversion, Lighting, Options, PointCloud, Within};
 
 use super::{options, same};
 use crate::common::chosen::{alone, chosen, facts, only, some_choice};
@@ -12,7 +12,8 @@ pub fn check(scene: &Scene, rng: &mut Rng) -> Result<(), String> {
     let Scene {
         points, viewpoint, ..
     } = scene;
-    let plain = options(scene, rng).with_within(None);
+    let mut plain = options(scene, rng).with_within(None);
+    plain.scores = matches!(plain.inversion, Inversion::Looks(_));
     let within = some_choice(rng, scene);
     let options = only(within, &plain);
     let mut cloud = cloud_of(points, rng.chance(2));
@@ -54,6 +55,30 @@ pub fn check(scene: &Scene, rng: &mut Rng) -> Result<(), String> {
     let shared = options.with_threads(2 + rng.below(3));
     let shared = facts(cloud.visible_from(*viewpoint, &shared), None);
     same(&title("threads"), shared, expected)?;
+    let part = alone(points, &near);
+    if within.distance.is_none() {
+        let ahead = rng.direction();
+        let found = cloud.visible_from_direction(ahead, &options);
+        let expected = part.visible_from_direction(ahead, &plain);
+        let expected = facts(expected, Some(&near));
+        same(&title("direction"), facts(found, None), expected)?;
+    }
+    if plain.scores {
+        return Ok(());
+    }
+    let mesh = cloud.reconstruct(*viewpoint, &options, None);
+    let expected = part.reconstruct(*viewpoint, &plain, None).map(|mesh| {
+        let corners = mesh.triangles.iter().flatten();
+        corners.map(|&k| near[k as usize]).collect::<Vec<_>>()
+    });
+    let mesh = mesh.map(|mesh| mesh.triangles.into_flattened());
+    same(&title("mesh"), mesh, expected)?;
+    let light = cloud.illuminate(&[*viewpoint], &options, &Lighting::default());
+    let own = light.map(|light| near.iter().map(|&i| light[i as usize]).collect());
+    let expected = part.illuminate(&[*viewpoint], &plain, &Lighting::default());
+    if within.distance.is_none() {
+        same(&title("light"), own, expected)?;
+    }
     several(&cloud, scene, &within, &plain, rng)
 }
 
@@ -82,6 +107,13 @@ fn several(
     let options = only(*within, plain);
     let counted = cloud.coverage(&places, &options);
     same("coverage", counted, Ok(counts.clone()))?;
+    let lighting = Lighting {
+        smoothing: 0,
+        ..Lighting::default()
+    };
+    let light = cloud.illuminate(&places, &options, &lighting);
+    let shares = counts.iter().map(|&count| (f64::from(count) / 3.0) as f32);
+    same("light", light, Ok(shares.collect()))?;
     let found = cloud.visible_from_at_least(2, &places, &options);
     let twice = (0u32..).zip(&counts).filter(|(_, count)| **count >= 2);
     same(

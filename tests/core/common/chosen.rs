@@ -1,6 +1,6 @@
 //! The points that take part in a question, and the same question asked of a cloud of these points alone.
 
-use hidden_point_removal::{Error, Inversion, Options, PointCloud, Visibility, Within};
+use hidden_point_removal::{Error, Options, PointCloud, Visibility, Within};
 
 use super::rng::Rng;
 use super::scenes::Scene;
@@ -58,19 +58,27 @@ pub fn some_choice(rng: &mut Rng, scene: &Scene) -> Within {
     }
 }
 
-type Facts = (Vec<u32>, [u64; 2], u32, Inversion, bool);
+type Facts = (Vec<u32>, Vec<(u32, u32)>, [u64; 2], u32, String);
 
 /// Everything about an answer that does not depend on the numbering. `indices` numbers the points of a part.
 pub fn facts(answer: Result<Visibility, Error>, indices: Option<&[u32]>) -> Result<Facts, Error> {
     let answer = answer?;
-    let seen = answer.indices().iter();
+    let number = |k: u32| indices.map_or(k, |indices| indices[k as usize]);
+    let scores = (0u32..).zip(answer.scores());
+    let scores = scores.filter(|(_, score)| **score != 0.0);
     Ok((
-        seen.map(|&k| indices.map_or(k, |indices| indices[k as usize]))
+        answer.indices().iter().map(|&k| number(k)).collect(),
+        scores
+            .map(|(k, score)| (number(k), score.to_bits()))
             .collect(),
         [answer.radius().to_bits(), answer.exponent().to_bits()],
         answer.evaluations(),
-        answer.inversion(),
-        answer.exact(),
+        format!(
+            "{:?} {:?} {}",
+            answer.inversion(),
+            answer.looks(),
+            answer.exact()
+        ),
     ))
 }
 

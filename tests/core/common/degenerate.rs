@@ -95,6 +95,35 @@ pub const DEGENERATE: &[Kind] = &[
         let radius = rng.pick(&[1e14, 1e15, 1e16, 1e17, 1e30]);
         seen_from_origin(points, Options::radius(radius))
     }),
+    Kind::new("thin, except for rounding", |rng, n| {
+        let [start, along, across] = [[0.3, -0.7, 1.1], [1.7, 0.9, -2.3], [0.4, 1.3, 0.2]];
+        let place = |t: f64, s: f64| -> [f64; 3] {
+            core::array::from_fn(|i| start[i] + t * along[i] + s * across[i])
+        };
+        let beside = [place(7.3, 1.1), place(0.3, 0.1)];
+        let ends = [place(7.3, 0.0), place(0.3, 0.0)];
+        let far = [[9.0, 8.0, 7.5], [0.0; 3], [1e6, 2e6, -1e6]];
+        let viewpoint = rng.pick(&[&beside[..], &ends, &far].concat());
+        let shape = rng.below(5);
+        let strays = rng.chance(4);
+        let points = many(n, || {
+            let [t, s] = [0; 2].map(|_| rng.between(-5.0, 5.0));
+            match shape {
+                _ if strays && rng.chance(30) => place(t, s).map(|x| x + 1e-7),
+                0 => place(t, 0.0),
+                1 => place(t, s),
+                2 => place(libm::cos(t), libm::sin(t)),
+                3 => along.map(|x| (t + 6.0) * x),
+                _ => [t, 0.1, 0.2],
+            }
+        });
+        let options = Options::exponent(rng.pick(&[0.5, 2.0]));
+        Scene {
+            points,
+            viewpoint,
+            options,
+        }
+    }),
     Kind::new("two walls and their edge", |rng, n| {
         let points = many(n, || {
             let [x, y, z] = core::array::from_fn(|_| f64::from(rng.integer(0, 4)));

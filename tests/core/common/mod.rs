@@ -7,7 +7,6 @@
 // Each test program uses only a part of this.
 #![allow(dead_code)]
 
-pub mod added;
 pub mod cameras;
 pub mod certify;
 pub mod chosen;
@@ -22,7 +21,6 @@ pub mod rational;
 pub mod rng;
 pub mod scanner;
 pub mod scenes;
-pub mod sectors;
 pub mod shapes;
 pub mod structured;
 pub mod walk;

@@ -1,14 +1,4 @@
-//! The views of many viewpoints, and choices among them, without any shortcut.
-
-use hidden_point_removal::{Options, PointCloud};
-
-pub fn masks(cloud: &PointCloud, places: &[[f64; 3]], options: &Options) -> Vec<Vec<bool>> {
-    let view = |&place: &[f64; 3]| {
-        let mask = cloud.visible_from(place, options).unwrap().mask();
-        mask.iter().map(|&byte| byte == 1).collect()
-    };
-    places.iter().map(view).collect()
-}
+//! Choices among viewpoints, without any shortcut.
 
 pub fn weight_of(seen: &[bool], weights: &[f64]) -> f64 {
     let all = seen.iter().zip(weights);

@@ -41,10 +41,6 @@ impl<'a> Walk<'a> {
         }
     }
 
-    pub fn points(&self) -> &'a [[f64; 3]] {
-        self.points
-    }
-
     /// Moves on: mostly by a small part of the distance, with the same options.
     pub fn step(&mut self, rng: &mut Rng) {
         if self.wrong || rng.chance(12) {
