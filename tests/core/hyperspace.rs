@@ -1,7 +1,8 @@
 //! Four and more dimensions, compared with the exact answers in three, and on known shapes.
 
 use hidden_point_removal::{
-    Exponential, Inversion, NonFinite, Options, PointCloudNd, Radius, Visibility, Within,
+    Exponential, Inversion, NonFinite, Options, PointCloud, PointCloudNd, Radius, Visibility,
+    Within,
 };
 
 use crate::common::rng::Rng;
@@ -188,4 +189,13 @@ fn what_does_not_fit_is_refused() {
     }
     let far = PointCloudNd::new(4, &[1e200; 4]).unwrap();
     refused("radius", "range", far.visible_from(&[0.0; 4], &options));
+}
+
+/// Three neighbors at the distances 3, 4 and 5.
+#[test]
+fn the_spacing_is_told_in_every_dimension() {
+    let flat = PointCloud::new(&[[0.0; 3], [3.0, 0.0, 0.0], [0.0, 4.0, 0.0]]).unwrap();
+    assert_eq!(flat.spacing(), Ok(4.0));
+    let corners = [[0.0; 4], [3.0, 0.0, 0.0, 0.0], [0.0, 0.0, 0.0, 4.0]].concat();
+    assert_eq!(PointCloudNd::new(4, &corners).unwrap().spacing(), 4.0);
 }

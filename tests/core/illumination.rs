@@ -170,28 +170,6 @@ fn skipped_and_removed_points_are_not_lit() {
 }
 
 #[test]
-fn a_body_shades_itself_and_what_is_behind_it() {
-    let mut rng = Rng::new(54);
-    let ball: Vec<[f64; 3]> = shapes::sphere(&mut rng, 3000)
-        .into_iter()
-        .map(|p| [p[0] * 0.5, p[1] * 0.5, p[2] * 0.5 + 1.5])
-        .collect();
-    let floor = (0..3000).map(|_| [rng.between(-3.0, 3.0), rng.between(-3.0, 3.0), 0.0]);
-    let points = [ball, floor.collect()].concat();
-    let brightness = lit(&points, &[[0.0, 0.0, 6.0]], &Lighting::default());
-    let mean = |wanted: &dyn Fn(&[f64; 3]) -> bool| {
-        let chosen = points.iter().zip(&brightness).filter(|(p, _)| wanted(p));
-        let chosen: Vec<f32> = chosen.map(|(_, light)| *light).collect();
-        chosen.iter().sum::<f32>() / chosen.len() as f32
-    };
-    let across = |p: &[f64; 3]| (p[0] * p[0] + p[1] * p[1]).sqrt();
-    assert!(mean(&|p| p[2] == 0.0 && across(p) < 0.5) < 0.05);
-    assert!(mean(&|p| p[2] == 0.0 && across(p) > 0.9) > 0.95);
-    assert!(mean(&|p| p[2] > 1.75) > 0.95);
-    assert!(mean(&|p| p[2] > 0.0 && p[2] < 1.4) < 0.05);
-}
-
-#[test]
 fn what_does_not_fit_is_refused() {
     let cloud = PointCloud::new(&shapes::bumpy(&mut Rng::new(3), 20)).unwrap();
     let ask = |lights: &[[f64; 3]], lighting: &Lighting| {

@@ -39,7 +39,6 @@ mod scans;
 mod sectors;
 mod sees;
 mod slices;
-mod survivors;
 mod threads;
 mod transfer;
 mod union;

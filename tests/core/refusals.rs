@@ -1,6 +1,6 @@
 //! Bad input: every error occurs, and valid input is not refused.
 
-use hidden_point_removal::{Error, NonFinite, Options, PointCloud, Radius, Visibility};
+use hidden_point_removal::{Error, MAX_POINTS, NonFinite, Options, PointCloud, Radius, Visibility};
 
 use crate::common::refused;
 use crate::test;
@@ -62,6 +62,8 @@ fn a_cloud_of_skipped_points_only_is_answered() {
     );
     let answer = cloud.visible_from(ORIGIN, &Options::default()).unwrap();
     assert_eq!((answer.mask(), answer.radius()), (vec![0; 4], 0.0));
+    let text = format!("{cloud:?}");
+    assert_eq!(text, "PointCloud { len: 4, skipped: 4, .. }");
 }
 
 #[test]
@@ -219,4 +221,21 @@ fn nothing_the_range_allows_panics() {
             }
         }
     }
+}
+
+#[test]
+fn refusals_that_are_hard_to_provoke_are_one_sentence() {
+    let direction = [0.0, f64::NEG_INFINITY, f64::NAN];
+    let points = format!("5 points exceed the limit of {MAX_POINTS}");
+    for (error, message) in [
+        (
+            Error::Direction { direction },
+            "the direction must be finite and not zero, got 0, -infinity, NaN",
+        ),
+        (Error::TooManyPoints { count: 5 }, points.as_str()),
+        (Error::OutOfMemory, "not enough memory for this cloud"),
+    ] {
+        assert_eq!(error.to_string(), message);
+    }
+    assert_eq!(Error::OutOfMemory.code(), "too-large");
 }
