@@ -67,14 +67,6 @@ test("an octree (COPC) is read from a file, and from servers with ranges and wit
   expect(now).toMatchObject({ total: 3000, ...(await answerInNode(octree, now)) });
 });
 
-test("an octree with more points than allowed is thinned, as any file", async () => {
-  served.set("ranged/octree.copc.laz", tree);
-  const page = await openReady("?src=ranged/octree.copc.laz&points=1100");
-  const now = await status(page);
-  expect(now.total).toBeLessThanOrEqual(1100);
-  expect(await page.locator("#message p").textContent()).toContain("3,000");
-});
-
 test("12 million points are thinned, and are never all in memory", async () => {
   const page = await openReady("?sample=bunny&points=100000&looks=0");
   const before = await status(page);

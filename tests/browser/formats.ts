@@ -196,40 +196,6 @@ export function table(positions: ArrayLike<number>): Uint8Array {
   return new TextEncoder().encode(`x,y,z,intensity,class,red,green,blue\n${lines.join("\n")}\n`);
 }
 
-/** The points of `table` as a PLY file. */
-export function attributedPly(positions: ArrayLike<number>): Uint8Array {
-  const properties = [
-    "float x",
-    "float y",
-    "float z",
-    "ushort scalar_intensity",
-    "uchar class",
-    "uchar red",
-    "uchar green",
-    "uchar blue",
-  ];
-  const header = [
-    "ply",
-    "format binary_little_endian 1.0",
-    `element vertex ${positions.length / 3}`,
-    ...properties.map((property) => `property ${property}`),
-    "end_header",
-    "",
-  ].join("\n");
-  const rowBytes = 18;
-  const view = new DataView(new ArrayBuffer(rowBytes * (positions.length / 3)));
-  rows(positions).forEach((point, i) => {
-    point.forEach((value, axis) => {
-      view.setFloat32(rowBytes * i + 4 * axis, value, true);
-    });
-    view.setUint16(rowBytes * i + 12, intensityOf(i), true);
-    [classOf(i), ...colorOf(i)].forEach((value, k) => {
-      view.setUint8(rowBytes * i + 14 + k, value);
-    });
-  });
-  return new Uint8Array(Buffer.concat([new TextEncoder().encode(header), new Uint8Array(view.buffer)]));
-}
-
 /** The points of `table` as a PCD file. Its colors are four bytes that are declared as a float. */
 export function attributedPcd(positions: ArrayLike<number>): Uint8Array {
   const count = positions.length / 3;

@@ -151,16 +151,22 @@ function ofNodes(Filter: typeof HiddenPointNodesFilter, count: number): Adapter[
   };
 }
 
-/** A `<points>` with the hook, in a canvas of its own that does not draw. */
-const ofReact: Adapter["make"] = async (positions, options) => {
+/** A canvas of React's, which does not draw. `render` is called instead. */
+export async function rootOf(frameloop: "never" | "demand", render: () => void) {
   extend(THREE as never);
-  const { geometry } = pointsOf(positions);
   const nothing = () => undefined;
   const canvas = { style: {}, addEventListener: nothing, removeEventListener: nothing };
-  const methods = { render: nothing, setPixelRatio: nothing, setSize: nothing, getPixelRatio: () => 1 };
+  const methods = { render, setPixelRatio: nothing, setSize: nothing, getPixelRatio: () => 1 };
   const gl = { ...methods, domElement: canvas, shadowMap: {}, xr: canvas };
   const root = createRoot(canvas as never);
-  await root.configure({ gl: () => gl, frameloop: "never", size: { width: 9, height: 9, top: 0, left: 0 } });
+  await root.configure({ gl: () => gl, frameloop, size: { width: 9, height: 9, top: 0, left: 0 } });
+  return root;
+}
+
+/** A `<points>` with the hook. */
+const ofReact: Adapter["make"] = async (positions, options) => {
+  const { geometry } = pointsOf(positions);
+  const root = await rootOf("never", () => undefined);
   const told = { changes: [] as Change[], errors: [] as Error[] };
   const made = { filter: null as HiddenPointFilter | null };
   let own: UseHiddenPointFilterOptions = {

@@ -42,13 +42,6 @@ function readBox(box: unknown, dimension: number): { min: number[]; max: number[
   if (!areNumbers(min) || !areNumbers(max)) {
     throw new HprError("option", `within box must be [min, max], each with ${dimension} numbers, got ${describe(box)}`);
   }
-  if (!min.every((least, axis) => least <= max[axis]!)) {
-    const got = `${min.join(", ")} and ${max.join(", ")}`;
-    throw new HprError(
-      "option",
-      `within box must be [min, max], where no coordinate of min is above that of max, got ${got}`,
-    );
-  }
   return { min, max };
 }
 

@@ -123,17 +123,22 @@ export class HiddenPointFilter extends CameraFilter<HiddenPointFilterEvents> {
     if (this.isStale) return this.#preparing();
     const [cloud, camera] = [this.#cloud, this.enabled ? this.cameras.due(this.frozen) : undefined];
     if (cloud === undefined || camera === undefined) return undefined;
+    /** An answer about other points is left. No later frame may come that asks about the present ones. */
+    const isLeft = () => {
+      this.isStale ||= !this.drawing.drawn.isSame;
+      return this.isStale;
+    };
     return this.view(
       cloud,
       camera,
       (answer) => {
-        if (!this.drawing.drawn.isSame) return undefined;
+        if (isLeft()) return undefined;
         const count = this.drawing.answer(camera, answer.indices);
         this.#count = count;
         return { count };
       },
       (map) => {
-        if (!this.drawing.drawn.isSame) return undefined;
+        if (isLeft()) return undefined;
         this.drawing.map(camera, map, translation(this.settings.origin));
         return { count: this.#count };
       },
