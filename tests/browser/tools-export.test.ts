@@ -48,7 +48,7 @@ function readPly(file: Buffer): Ply {
   const count = Number(lines.find((line) => line.startsWith("element vertex "))!.slice(15));
   let offset = end;
   const next = (type: string) => {
-    const bytes = { double: 8, float: 4, ushort: 2 }[type] ?? 1;
+    const bytes = { double: 8, float: 4, uint16: 2 }[type] ?? 1;
     offset += bytes;
     return bytes === 8
       ? file.readDoubleLE(offset - 8)
@@ -77,7 +77,7 @@ test("the visible points saved as PLY and CSV equal the package's, with colors a
     "uchar red",
     "uchar green",
     "uchar blue",
-    "ushort intensity",
+    "uint16 intensity",
   ]);
   expect(rows).toEqual(seen.map((index) => [...at(index), ...COLOR(index), 100 * index]));
   const { viewpoint } = await status(page);

@@ -1,18 +1,24 @@
-"""Reads files of points with laspy and lazrs, plyfile and pypcd4, for foreign.ts.
+"""Reads files of points with laspy and lazrs, plyfile and pypcd4, or with Open3D if that is the argument, for foreign.ts.
 
 A request on standard input is the kind (4 bytes), the length and the bytes of a file. The answer is the number of
 coordinates and the coordinates, or -1, the length of a message, and the message.
 """
 
 import io
+import os
 import resource
 import struct
 import sys
+import tempfile
 
-import laspy
 import numpy
-from plyfile import PlyData
-from pypcd4 import PointCloud
+
+if "open3d" in sys.argv:
+    import open3d
+else:
+    import laspy
+    from plyfile import PlyData
+    from pypcd4 import PointCloud
 
 # A damaged header may ask for any amount of memory.
 resource.setrlimit(resource.RLIMIT_AS, (4 << 30, 4 << 30))
@@ -52,11 +58,25 @@ def written_las(content):
     return written(laspy.read(io.BytesIO(content)), ["red", "green", "blue"], "intensity")
 
 
+def written_open3d(content):
+    """Both readers of Open3D: the older one has points and colors alone."""
+    with tempfile.NamedTemporaryFile(suffix=".ply") as file:
+        file.write(content)
+        file.flush()
+        points, older = open3d.t.io.read_point_cloud(file.name).point, open3d.io.read_point_cloud(file.name)
+    columns = [points[name].numpy().astype("<f8") for name in ["positions", "colors", "intensity"]]
+    assert (columns[0] == numpy.asarray(older.points)).all(), "the older reader has other points"
+    assert (columns[1] == numpy.rint(255 * numpy.asarray(older.colors))).all(), "the older reader has other colors"
+    return numpy.column_stack(columns)
+
+
 READERS = {
     **{b"ply ": read_ply, b"pcd ": read_pcd, b"las ": read_las},
-    **{b"plyw": written_ply, b"lasw": written_las},
+    **{b"plyw": written_ply, b"lasw": written_las, b"o3dw": written_open3d},
 }
-requests, answers = sys.stdin.buffer, sys.stdout.buffer
+# Open3D prints its warnings where the answers are expected.
+requests, answers = sys.stdin.buffer, os.fdopen(os.dup(1), "wb")
+os.dup2(2, 1)
 while head := requests.read(8):
     kind, length = struct.unpack("<4sI", head)
     content = requests.read(length)

@@ -1,8 +1,9 @@
 // Damaged files, read by readCloud and by readers of others: laspy with lazrs, plyfile, pypcd4, and three's loader of glTF.
+// Written files, read by laspy, plyfile, three and Open3D, if the Python of OPEN3D_PYTHON, or python3, has it.
 // If both read a file, they must read the same points. A file that only we read is listed.
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
-import { spawn } from "node:child_process";
+import { spawn, spawnSync } from "node:child_process";
 import { readCloud, writeCloud } from "hidden-point-removal/files";
 import { Color, type Mesh, MeshBasicMaterial, SRGBColorSpace, Vector3 } from "three";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
@@ -26,7 +27,8 @@ export async function fuzzForeign(minutes: number, seed: number): Promise<number
   if (python === undefined) console.log("skipped laspy, plyfile and pypcd4: there is no Python 3 with pip, or no PyPI");
   const foreign = python === undefined ? undefined : new Foreign(python);
   const kinds: Kind[] = foreign ? ["las", "las", "ply", "pcd", "glb"] : ["glb"];
-  let wrong = foreign ? await written(foreign, new Random(seed)) : 0;
+  const open3d = open3dReader();
+  let wrong = await written(foreign, open3d, new Random(seed));
   const tallies = new Map<string, Tally>();
   const end = Date.now() + 60_000 * minutes;
   for (let round = seed; Date.now() < end; round++) {
@@ -59,6 +61,7 @@ export async function fuzzForeign(minutes: number, seed: number): Promise<number
     }
   }
   foreign?.end();
+  open3d?.end();
   for (const [name, { both, neither, onlyThey, onlyWe, wrong: own }] of tallies) {
     const we = [...onlyWe.values()].reduce((sum, count) => sum + count, 0);
     const tried = both + neither + onlyThey + we;
@@ -71,18 +74,37 @@ export async function fuzzForeign(minutes: number, seed: number): Promise<number
   return wrong;
 }
 
-/** Clouds that writeCloud has written, read by laspy, plyfile and three: points, colors and intensity. Returns how many differ. */
-async function written(foreign: Foreign, random: Random): Promise<number> {
+/** Open3D is large, so it is not installed here. */
+function open3dReader(): Foreign | undefined {
+  const python = process.env["OPEN3D_PYTHON"] ?? "python3";
+  const isThere = spawnSync(python, ["-c", "import open3d"], { stdio: "ignore" }).status === 0;
+  if (isThere) return new Foreign(python, "open3d");
+  console.log(`skipped Open3D: ${python} has none (OPEN3D_PYTHON may name another Python)`);
+  return undefined;
+}
+
+/** Clouds that writeCloud has written, as others read them: points, colors and intensity. Returns how many differ. */
+async function written(foreign: Foreign | undefined, open3d: Foreign | undefined, random: Random): Promise<number> {
+  const readers = {
+    ...(foreign && {
+      plyfile: (file: Buffer) => foreign.read("plyw", file),
+      laspy: (file: Buffer) => foreign.read("lasw", file),
+    }),
+    ...(open3d && { Open3D: (file: Buffer) => open3d.read("o3dw", file) }),
+    three: (file: Buffer) => Promise.resolve(threePly(new Uint8Array(file))),
+  };
   const [count, files] = [20, 120];
   let [wrong, tried] = [0, 0];
   for (let file = 0; file < files; file++) {
     const numbers = (length: number, most: number) => Array.from({ length }, () => random.below(most));
     const positions = Float64Array.from(numbers(3 * count, 2e6), (value) => value / 1000 + 5e5);
-    const deep = random.below(2) === 0;
     const colors = Uint8Array.from(numbers(3 * count, 256));
+    // Bytes, 16 bits, and the bytes and shares of tables.
+    const kind = random.of(["bytes", "deep", "table", "shares"] as const);
+    const scale = { bytes: 1, deep: 257, table: 1, shares: 1 / 255 }[kind];
     const channels = ["red", "green", "blue"].map((name, channel) => {
-      const own = Uint16Array.from({ length: count }, (_, i) => colors[3 * i + channel]! * 257);
-      return [name, own] as const;
+      const own = Float64Array.from({ length: count }, (_, i) => colors[3 * i + channel]! * scale);
+      return [name, kind === "deep" ? Uint16Array.from(own) : own] as const;
     });
     const shares = random.below(2) === 0;
     const intensity = shares
@@ -97,12 +119,11 @@ async function written(foreign: Foreign, random: Random): Promise<number> {
       "a name that is longer than LAS has room for",
     ];
     const extra = { [random.of(names)]: Float64Array.from(numbers(count, 1e6), (value) => value / 7) };
-    const columns = { ...(deep && Object.fromEntries(channels)), intensity, ...extra };
-    const cloud = { positions, columns, ...(!deep && { colors }) };
-    for (const reader of ["plyw", "lasw", "three"] as const) {
-      const isLas = reader === "lasw";
-      const content = writeCloud(cloud, isLas ? "las" : "ply");
-      const found = reader === "three" ? threePly(content) : await foreign.read(reader, Buffer.from(content));
+    const columns = { ...(kind !== "bytes" && Object.fromEntries(channels)), intensity, ...extra };
+    const cloud = { positions, columns, ...(kind === "bytes" && { colors }) };
+    for (const [reader, read] of Object.entries(readers)) {
+      const isLas = reader === "laspy";
+      const found = await read(Buffer.from(writeCloud(cloud, isLas ? "las" : "ply")));
       tried++;
       const right = Float64Array.from({ length: 7 * count }, (_, k) => {
         const [i, column] = [Math.floor(k / 7), k % 7];
@@ -120,10 +141,11 @@ async function written(foreign: Foreign, random: Random): Promise<number> {
         });
       if (isRight) continue;
       wrong++;
-      console.log(`a file with ${Object.keys(columns).join(", ")} is written wrongly for ${reader}: ${shown(found)}`);
+      const what = `${kind} and ${Object.keys(columns).join(", ")}`;
+      console.log(`a file with ${what} is written wrongly for ${reader}: ${shown(found)}`);
     }
   }
-  console.log(`written files: read ${tried} times, ${wrong} wrong`);
+  console.log(`written files, read by ${Object.keys(readers).join(", ")}: ${tried} cases, ${wrong} wrong`);
   return wrong;
 }
 
@@ -226,12 +248,14 @@ function shown(outcome: Outcome): string {
 /** A Python process that reads one file after another. It is started again when it dies. */
 class Foreign {
   readonly #python: string;
+  readonly #readers: string;
   #process;
   #bytes = Buffer.alloc(0);
   #wake: () => void = () => undefined;
 
-  constructor(python: string) {
-    this.#python = python;
+  /** @param readers those of foreign.py that are wanted, if not all but Open3D */
+  constructor(python: string, readers = "") {
+    [this.#python, this.#readers] = [python, readers];
     this.#process = this.#start();
   }
 
@@ -274,7 +298,8 @@ class Foreign {
   }
 
   #start() {
-    const child = spawn(this.#python, [join(import.meta.dirname, "foreign.py")], { stdio: ["pipe", "pipe", "ignore"] });
+    const args = [join(import.meta.dirname, "foreign.py"), this.#readers];
+    const child = spawn(this.#python, args, { stdio: ["pipe", "pipe", "ignore"] });
     child.stdin.on("error", () => undefined);
     child.stdout.on("data", (bytes: Buffer) => {
       this.#bytes = Buffer.concat([this.#bytes, bytes]);

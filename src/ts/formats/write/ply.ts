@@ -1,7 +1,7 @@
 import { type FilledColumn, valueAt, type Values } from "../numbers.js";
 import { BATCH, type Content } from "./content.js";
 
-/** The types of PLY, and how their numbers are written. All other numbers are doubles. */
+/** The types of PLY, and how their numbers are written. All other numbers are doubles. Open3D knows no "ushort". */
 const TYPES = new Map<
   unknown,
   [type: string, write: "Int8" | "Uint8" | "Int16" | "Uint16" | "Int32" | "Uint32" | "Float32"]
@@ -10,7 +10,7 @@ const TYPES = new Map<
   [Uint8Array, ["uchar", "Uint8"]],
   [Uint8ClampedArray, ["uchar", "Uint8"]],
   [Int16Array, ["short", "Int16"]],
-  [Uint16Array, ["ushort", "Uint16"]],
+  [Uint16Array, ["uint16", "Uint16"]],
   [Int32Array, ["int", "Int32"]],
   [Uint32Array, ["uint", "Uint32"]],
   [Float32Array, ["float", "Float32"]],
