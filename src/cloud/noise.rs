@@ -233,7 +233,8 @@ impl Measured {
             lengths.push(small.deviation / unit);
             let normal = small.normal;
             let [near, far] = PLANES.map(|count| off_plane(&places[..=count]));
-            planes.push(near / far);
+            // Where points are in one plane but for roundings, these tell nothing.
+            planes.push(if far > EXACT * size { near / far } else { 0.0 });
             let [small_off, large_off] = [&small, &large].map(|off| off.deviation / size);
             ratios[0].push(small_off);
             ratios[1].push(large_off);

@@ -277,6 +277,23 @@ fn a_rough_scan_in_voxels_is_seen_from_its_own_station() {
     assert!(lost <= 12.0, "{lost} % lost");
 }
 
+/// A turned part: rings of 200 corners. The nearest points of each lie in its ring, which is flat but for roundings.
+fn rings() -> Vec<Place> {
+    let ring = |row: usize| {
+        let away = if row % 4 == 0 {
+            0.5
+        } else {
+            0.15 + 0.01 * row as f64
+        };
+        let corner = move |k: usize| {
+            let (sin, cos) = (core::f64::consts::TAU * k as f64 / 200.0).sin_cos();
+            [away * cos, 0.2 * row as f64, away * sin]
+        };
+        (0..200).map(corner)
+    };
+    (0..16).flat_map(ring).collect()
+}
+
 #[test]
 fn a_cloud_that_moves_or_turns_has_the_same_views() {
     let (sin, cos) = 0.83f64.sin_cos();
@@ -295,6 +312,9 @@ fn a_cloud_that_moves_or_turns_has_the_same_views() {
     ];
     let noisy_ones = [shape(47, &table(), 6000), shape(48, &shelf(), 4000)];
     shapes.extend(noisy_ones.map(|points| points.into_iter().map(&mut noisy).collect()));
+    shapes.push(rings());
+    let scanned = scan(&mut rng, &room(), [0.5, 0.6, 1.4], 60, 0.004);
+    shapes.push(scanned.into_iter().map(|pair| pair[0]).collect());
     let viewpoint = [0.8, -1.9, 1.4];
     for (shape, points) in shapes.iter().enumerate() {
         let ask = |change: &dyn Fn(Place) -> Place, options: &Options| {
