@@ -2,9 +2,9 @@
 
 use hidden_point_removal::{Options, Placing, PointCloud};
 
+use crate::common::refused;
 use crate::common::rng::Rng;
 use crate::common::shapes;
-use crate::common::{NOWHERE, refused};
 use crate::test;
 
 fn scene(seed: u64) -> (PointCloud, Vec<[f64; 3]>, Vec<f64>) {
@@ -67,10 +67,4 @@ fn questions_that_make_no_sense_are_refused() {
         let found = cloud.place_viewpoints(&candidates, &usual, &placing);
         refused("option", "", found);
     }
-    let scores = Options::looks(2).with_scores(true);
-    for options in [scores, Options::exponent(-1.0)] {
-        refused("option", "", cloud.coverage(&NOWHERE, &options));
-        refused("option", "", cloud.coverage(&candidates, &options));
-    }
-    refused("viewpoint", "", cloud.coverage(&[[f64::NAN; 3]], &usual));
 }

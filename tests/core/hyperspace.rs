@@ -183,6 +183,11 @@ fn what_does_not_fit_is_refused() {
     });
     for (code, words, options) in [
         ("option", "within needs a cloud of dimension 3", within),
+        (
+            "option",
+            "looks needs a cloud of dimension 3",
+            Options::looks(3),
+        ),
         ("radius", "smaller", Options::radius(0.1)),
     ] {
         refused(code, words, cloud.visible_from(&[0.0; 4], &options));

@@ -1,13 +1,10 @@
 //! Several looks: the promises of the rule, each degenerate case, and changes of the input that
 //! must not change the answer.
 
-use hidden_point_removal::{
-    Inversion, Lighting, Options, PointCloud, PointCloudNd, Radius, Visibility, Within,
-    merge_visible,
-};
+use hidden_point_removal::{Inversion, Options, PointCloud, Visibility, Within};
 
+use crate::common::ask;
 use crate::common::rng::Rng;
-use crate::common::{NOWHERE, ask, refused};
 use crate::test;
 
 const FRONT: [f64; 3] = [0.0, 0.0, 5.0];
@@ -219,55 +216,4 @@ fn skipped_and_removed_points_have_no_score() {
     let rest: Vec<_> = (0..49).filter(|&i| i != 24).map(|i| points[i]).collect();
     let alone = ask(&rest, FRONT, &looks(3));
     assert_eq!(answer.count(), alone.count());
-}
-
-#[test]
-fn what_needs_one_hull_refuses_looks() {
-    let points = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
-    let cloud = PointCloud::new(&points).unwrap();
-    let options = Options::looks(3);
-    let view = |options: Options| cloud.visible_from(FRONT, &options);
-    let with = |other: &str| format!("looks cannot be combined with {other}");
-    let mesh = cloud.reconstruct(FRONT, &options, None);
-    refused("option", &with("reconstruct"), mesh);
-    for lights in [&[FRONT][..], &[]] {
-        let light = cloud.illuminate(lights, &options, &Lighting::default());
-        refused("option", &with("illuminate"), light);
-    }
-    let merged = merge_visible(&[(&points[..], &[0, 1, 2][..])], FRONT, &options);
-    refused("option", &with("merging"), merged);
-    for (radius, name) in [
-        (Radius::Opposite, "radius \"opposite\""),
-        (Radius::Absolute(9.0), "radius"),
-        (Radius::Exponent(2.0), "exponent"),
-    ] {
-        let options = options.with_radius(radius);
-        refused("option", &with(name), view(options));
-        refused(
-            "option",
-            &with(name),
-            cloud.visible_from_any(&NOWHERE, &options),
-        );
-    }
-    for count in [0, 1, 4] {
-        refused("option", "looks must be from", view(looks(count)));
-    }
-    let without = |other: &str| format!("scores cannot be combined with {other}");
-    let scores = Options::default().with_scores(true);
-    refused("option", &without("an answer without looks"), view(scores));
-    let several = cloud.visible_from_any(&[FRONT], &looks(3));
-    refused("option", &without("several viewpoints"), several);
-    refused(
-        "viewpoint",
-        "",
-        cloud.visible_from([f64::NAN, 0.0, 0.0], &options),
-    );
-    refused(
-        "radius",
-        "",
-        cloud.visible_from([1e300, 0.0, 0.0], &options),
-    );
-    let hyper = PointCloudNd::new(4, &[0.0; 8]).unwrap();
-    let found = hyper.visible_from(&[5.0; 4], &options);
-    refused("option", "looks needs a cloud of dimension 3", found);
 }

@@ -1,9 +1,9 @@
 //! Several looks along a direction: the limit of looks from farther and farther away.
 
-use hidden_point_removal::{Options, PointCloud, Radius, Visibility};
+use hidden_point_removal::{Options, PointCloud, Visibility};
 
 use crate::common::rng::Rng;
-use crate::common::{ask, refused, shapes};
+use crate::common::{ask, shapes};
 use crate::test;
 
 fn looks(count: usize) -> Options {
@@ -90,24 +90,4 @@ fn degenerate_clouds_answer_as_documented() {
         .filter(|(a, b)| **a != *b)
         .count();
     assert!(differ < 8, "{differ}");
-}
-
-#[test]
-fn options_that_do_not_go_with_looks_do_not_go_with_directions_either() {
-    let mut rng = Rng::new(5);
-    let points: Vec<[f64; 3]> = shapes::bumpy(&mut rng, 600);
-    let cloud = PointCloud::new(&points).unwrap();
-    let direction = [0.3, -0.5, 0.8];
-    for wrong in [
-        looks(3).with_radius(Radius::Exponent(2.0)),
-        Options::looks(4),
-    ] {
-        refused(
-            "option",
-            "",
-            cloud.visible_from_direction(direction, &wrong),
-        );
-    }
-    let nowhere = cloud.visible_from_direction([0.0; 3], &looks(3));
-    refused("viewpoint", "", nowhere);
 }

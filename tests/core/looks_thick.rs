@@ -2,7 +2,6 @@
 
 use hidden_point_removal::{Options, PointCloud, Radius, Visibility};
 
-use crate::common::refused;
 use crate::common::rng::Rng;
 use crate::test;
 
@@ -339,19 +338,4 @@ fn the_automatic_radius_is_larger_for_measured_surfaces() {
         seen.unwrap().radius()
     });
     assert!(along > 1.2 * clean, "{along} {clean}");
-}
-
-#[test]
-fn a_thickness_needs_looks_and_a_number() {
-    let cloud = PointCloud::new(&sphere(30, 0.0)).unwrap();
-    let ask = |options: &Options| cloud.visible_from([3.0; 3], options);
-    let without_looks = "thickness cannot be combined with an answer without looks";
-    refused(
-        "option",
-        without_looks,
-        ask(&Options::default().with_thickness(0.1)),
-    );
-    for wrong in [-1e-9, f64::NAN, f64::INFINITY] {
-        refused("option", "thickness", ask(&thick(wrong)));
-    }
 }

@@ -28,23 +28,6 @@ fn seen_by_one(points: &[[f64; 3]], mirror: [f64; 3], radius: f64) -> usize {
 }
 
 #[test]
-fn answers_use_the_radius_that_the_rule_chose() {
-    let points = shapes::bumpy(&mut Rng::new(21), 1500);
-    let chosen = chosen(&points, FRONT, Radius::Opposite);
-    let answer = ask(
-        &points,
-        FRONT,
-        &Options::default().with_radius(Radius::Opposite),
-    );
-    assert_eq!(answer.radius(), chosen.radius);
-    assert_eq!(answer.exponent(), chosen.exponent);
-    assert_eq!(answer.evaluations(), chosen.evaluations);
-    let same = ask(&points, FRONT, &Options::radius(chosen.radius));
-    assert_eq!(same.indices(), answer.indices());
-    assert!((chosen.exponent - (chosen.radius / farthest(&points, FRONT)).log10()).abs() < 1e-12);
-}
-
-#[test]
 fn the_papers_rule_makes_points_seen_by_one_side_most() {
     let points = shapes::bumpy(&mut Rng::new(23), 800);
     let centroid = centroid(&points);

@@ -502,8 +502,4 @@ fn what_has_no_panorama_is_refused() {
             of_size(&|panorama| panorama.up = up),
         );
     }
-    let nowhere = cloud.panorama([f64::INFINITY, 0.0, 0.0], &usual, &SIZE);
-    refused("viewpoint", "viewpoint", nowhere);
-    let found = cloud.panorama(INSIDE, &ways()[2].with_scores(true), &SIZE);
-    refused("option", "cannot be combined", found);
 }

@@ -1,13 +1,19 @@
 //! Bad input: every error occurs, and valid input is not refused.
 
-use hidden_point_removal::{Error, MAX_POINTS, NonFinite, Options, PointCloud, Radius, Visibility};
+use hidden_point_removal::{
+    Error, Exponential, Horizon, Inversion, Lighting, MAX_POINTS, MapOptions, NonFinite, Options,
+    PanoramaOptions, Placing, PointCloud, Radius, Surface, Visibility, Within,
+};
 
-use crate::common::refused;
+use crate::common::{NOWHERE, refused};
 use crate::test;
 
 const NAN: f64 = f64::NAN;
 const INF: f64 = f64::INFINITY;
 const ORIGIN: [f64; 3] = [0.0; 3];
+const AHEAD: [f64; 3] = [0.0, 0.0, 5.0];
+const SMALLER: &str = "smaller than the distance of the farthest point";
+const NO_RADIUS: &str = "radius must be finite and positive";
 const POINTS: [[f64; 3]; 3] = [[3.0, 4.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, -2.0]];
 
 type View = Result<Visibility, Error>;
@@ -15,6 +21,158 @@ type View = Result<Visibility, Error>;
 fn view(points: &[[f64; 3]], viewpoint: [f64; 3], options: Options) -> View {
     let cloud = PointCloud::new(points).unwrap();
     cloud.visible_from(viewpoint, &options)
+}
+
+/// A question to a cloud from a viewpoint, or along it.
+type Question = fn(&PointCloud, [f64; 3], &Options) -> Result<(), Error>;
+
+const QUESTIONS: [(&str, Question); 15] = [
+    ("view", |c, at, o| c.visible_from(at, o).map(drop)),
+    ("slices", |c, at, o| c.observer().go_on(at, o, 9).map(drop)),
+    ("several", |c, at, o| c.visible_from_any(&[at], o).map(drop)),
+    ("two", |c, at, o| {
+        c.visible_from_at_least(2, &[at; 2], o).map(drop)
+    }),
+    ("coverage", |c, at, o| c.coverage(&[at], o).map(drop)),
+    ("placement", |c, at, o| {
+        c.place_viewpoints(&[at], o, &Placing::default()).map(drop)
+    }),
+    ("sees", |c, at, o| c.sees(at, &[[0.1; 3]], o).map(drop)),
+    ("map", |c, at, o| {
+        c.visibility_map(at, o, &MapOptions::default()).map(drop)
+    }),
+    ("panorama", |c, at, o| {
+        c.panorama(at, o, &PanoramaOptions::default()).map(drop)
+    }),
+    ("mesh", |c, at, o| c.reconstruct(at, o, None).map(drop)),
+    ("light", |c, at, o| {
+        c.illuminate(&[at], o, &Lighting::default()).map(drop)
+    }),
+    ("none", |c, _, o| c.visible_from_any(&NOWHERE, o).map(drop)),
+    ("dark", |c, _, o| {
+        c.illuminate(&[], o, &Lighting::default()).map(drop)
+    }),
+    ("direction", |c, at, o| {
+        c.visible_from_direction(at, o).map(drop)
+    }),
+    ("horizon", |_, at, o| Horizon::new(at, o).map(drop)),
+];
+
+/// What no question takes, and words of its refusal.
+fn wrong_options() -> Vec<(&'static str, Options)> {
+    let (plain, looks) = (Options::default(), Options::looks(3));
+    let by = |radius| plain.with_radius(radius);
+    let within = |distance, bounds| plain.with_within(Within { distance, bounds });
+    let exponential = |scale| Options::inversion(Inversion::Exponential(scale));
+    let power = |gamma| Options::inversion(Inversion::Power(gamma));
+    let automatic = exponential(Exponential::Auto);
+    let [radius, small] = [9.0, 0.5].map(Radius::Absolute);
+    let exponent = Radius::Exponent(2.0);
+    let mut wrong = vec![
+        ("scores cannot be combined", plain.with_scores(true)),
+        ("thickness cannot be combined", plain.with_thickness(0.1)),
+        ("surface cannot be", plain.with_surface(Surface::Clean)),
+        ("looks cannot be", looks.with_radius(Radius::Opposite)),
+        ("looks cannot be combined", looks.with_radius(radius)),
+        ("looks cannot be combined", looks.with_radius(exponent)),
+        ("cannot be combined", automatic.with_radius(radius)),
+        ("threads must be from 1 to 256", plain.with_threads(257)),
+        ("threads", plain.with_threads(usize::MAX)),
+        (SMALLER, by(small)),
+        (SMALLER, power(2.0).with_radius(small)),
+    ];
+    for options in [power(2.0), automatic] {
+        let opposite = options.with_radius(Radius::Opposite);
+        wrong.push(("cannot be combined", opposite));
+        wrong.push(("cannot be combined", options.with_radius(exponent)));
+    }
+    for bad in [NAN, INF, -INF, 0.0, -0.0, -5.0] {
+        wrong.push((NO_RADIUS, by(Radius::Absolute(bad))));
+        wrong.push(("exponential", exponential(Exponential::Scale(bad))));
+        wrong.push(("power", power(bad)));
+    }
+    for bad in [NAN, INF, -0.5] {
+        let exponent = "exponent must be finite and at least 0";
+        wrong.push((exponent, by(Radius::Exponent(bad))));
+        wrong.push(("thickness", looks.with_thickness(bad)));
+    }
+    for bad in [NAN, -1.0, -INF] {
+        wrong.push(("within distance", within(Some(bad), None)));
+    }
+    for bounds in [[1.0, 0.0], [NAN, 0.0], [0.0, NAN]] {
+        let bounds = bounds.map(|x| [x; 3]);
+        wrong.push(("a box must be", within(None, Some(bounds))));
+    }
+    wrong.extend([1.0, 16.5].map(|gamma| ("power", power(gamma))));
+    wrong.extend([0, 1, 4].map(|count| ("looks must be from", Options::looks(count))));
+    wrong
+}
+
+#[test]
+fn every_question_refuses_what_no_question_takes() {
+    let cloud = PointCloud::new(&POINTS).unwrap();
+    let empty = PointCloud::new::<[f64; 3]>(&[]).unwrap();
+    for (name, ask) in QUESTIONS {
+        for (words, options) in wrong_options() {
+            let is_radius = [SMALLER, NO_RADIUS].contains(&words);
+            let code = if is_radius { "radius" } else { "option" };
+            for cloud in [&cloud, &empty] {
+                // A radius is too small for some points only.
+                if words == SMALLER
+                    && (cloud.is_empty() || ["none", "dark", "horizon"].contains(&name))
+                {
+                    continue;
+                }
+                let title = format!("{name}, {words}, {options:?}");
+                let error = ask(cloud, AHEAD, &options).expect_err(&title);
+                // Some questions exclude what is wrong.
+                let is_excluded = matches!(error, Error::Excludes { .. } | Error::MergeRadius);
+                assert!(
+                    error.to_string().contains(words) || is_excluded,
+                    "{title}: {error}"
+                );
+                assert!(error.code() == code || is_excluded, "{title}: {error}");
+            }
+        }
+        for axis in 0..3 {
+            let mut nowhere = AHEAD;
+            nowhere[axis] = [NAN, INF, -INF][axis];
+            let found = ask(&cloud, nowhere, &Options::radius(9.0));
+            if !["none", "dark"].contains(&name) {
+                refused("viewpoint", "", found);
+            }
+        }
+    }
+}
+
+#[test]
+fn questions_refuse_what_they_have_no_answer_to() {
+    let cloud = PointCloud::new(&POINTS).unwrap();
+    let scores = Options::looks(3).with_scores(true);
+    let opposite = Options::default().with_radius(Radius::Opposite);
+    let power = Options::inversion(Inversion::Power(2.0));
+    let near = Options::radius(9.0).with_within(Within {
+        distance: Some(9.0),
+        bounds: None,
+    });
+    for (names, words, options) in [
+        (
+            "several two coverage placement sees map panorama none",
+            "scores",
+            scores,
+        ),
+        ("mesh light dark horizon", "looks", Options::looks(3)),
+        ("direction map", "radius \"opposite\"", opposite),
+        ("direction", "inversion power", power),
+        ("direction", "within distance", near),
+        ("horizon", "within", near),
+    ] {
+        for name in names.split(' ') {
+            let (_, ask) = QUESTIONS.iter().find(|(other, _)| *other == name).unwrap();
+            let words = format!("{words} cannot be combined with");
+            refused("option", &words, ask(&cloud, AHEAD, &options));
+        }
+    }
 }
 
 #[test]
@@ -64,35 +222,6 @@ fn a_cloud_of_skipped_points_only_is_answered() {
     assert_eq!((answer.mask(), answer.radius()), (vec![0; 4], 0.0));
     let text = format!("{cloud:?}");
     assert_eq!(text, "PointCloud { len: 4, skipped: 4, .. }");
-}
-
-#[test]
-fn a_viewpoint_that_is_not_finite_is_refused() {
-    for bad in [NAN, INF, -INF] {
-        for axis in 0..3 {
-            let mut viewpoint = [1.0; 3];
-            viewpoint[axis] = bad;
-            for points in [&POINTS[..], &[]] {
-                refused("viewpoint", "", view(points, viewpoint, Options::default()));
-                let cloud = PointCloud::new(points).unwrap();
-                refused("viewpoint", "", cloud.auto_radius(viewpoint, Radius::Auto));
-            }
-        }
-    }
-}
-
-#[test]
-fn numbers_that_are_no_radius_or_exponent_are_refused() {
-    for points in [&POINTS[..], &[]] {
-        for bad in [NAN, INF, -INF, 0.0, -0.0, -5.0] {
-            let found = view(points, ORIGIN, Options::radius(bad));
-            refused("radius", "radius must be finite and positive", found);
-        }
-        for bad in [NAN, INF, -INF, -0.5] {
-            let found = view(points, ORIGIN, Options::exponent(bad));
-            refused("option", "exponent must be finite and at least 0", found);
-        }
-    }
 }
 
 #[test]

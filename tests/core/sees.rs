@@ -15,14 +15,10 @@ fn questions_that_make_no_sense_are_refused() {
     assert_eq!(ask(&[], &default), Ok(vec![]));
     let nan = [0.0, f64::NAN, 0.0];
     refused("non-finite", "2 point(s)", ask(&[far, nan, nan], &default));
-    for options in [Options::looks(2).with_scores(true), Options::exponent(-1.0)] {
-        refused("option", "", ask(&[far], &options));
-        refused("option", "", ask(&[], &options));
-    }
+    refused("option", "", ask(&[], &Options::exponent(-1.0)));
     let beyond = [[0.0, 0.0, 14.1], [0.0, 0.0, 13.9], [f64::MAX, 0.0, 0.0]];
     let seen = ask(&beyond, &Options::radius(9.0));
     assert_eq!(seen, Ok(vec![false, true, false]));
-    refused("viewpoint", "", cloud.sees(nan, &[far], &default));
     // A cloud that skips such points does so here, too.
     let skipping = PointCloud::with_non_finite(&[nan, far], NonFinite::Skip).unwrap();
     let seen = skipping.sees([0.0; 3], &[nan, [0.0, 0.0, 1.0], [0.0, 0.0, 9.0]], &default);

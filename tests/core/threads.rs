@@ -2,7 +2,6 @@
 
 use hidden_point_removal::{Error, Options, PointCloud, ring_of_viewpoints};
 
-use crate::common::refused;
 use crate::common::rng::Rng;
 use crate::common::shapes;
 
@@ -20,17 +19,5 @@ fn of_several_refusals_the_first_one_is_reported() {
             panic!("{refused:?}");
         };
         assert_eq!(viewpoint[0], 11.0);
-    }
-}
-
-#[test]
-fn more_than_256_threads_are_refused() {
-    let cloud = PointCloud::new(&[[0.0; 3]]).unwrap();
-    let seen = |count| cloud.visible_from([1.0; 3], &Options::default().with_threads(count));
-    for count in [257, usize::MAX] {
-        refused("option", "threads must be from 1 to 256", seen(count));
-    }
-    for count in [0, 1, 256] {
-        assert!(seen(count).is_ok());
     }
 }
