@@ -245,7 +245,7 @@ describe.each(ADAPTERS.map((adapter) => [adapter.name, adapter] as const))("%s",
       }
     });
 
-    it("recovers from a worker that dies, without a word", async () => {
+    having("recovery")("recovers from a worker that dies, without a word", async () => {
       dying = 1;
       const all = await page();
       await rest(all, HERE);

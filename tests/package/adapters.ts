@@ -6,6 +6,7 @@ import { PotreeFilter } from "hidden-point-removal/potree";
 import { useHiddenPointFilter, type UseHiddenPointFilterOptions } from "hidden-point-removal/react-three-fiber";
 import { HiddenPointFilter } from "hidden-point-removal/three";
 import * as webgpu from "hidden-point-removal/three/webgpu";
+import { WorkerPointCloud } from "hidden-point-removal/worker";
 import { createElement, useRef } from "react";
 import * as THREE from "three";
 import { afterEach } from "vitest";
@@ -44,7 +45,7 @@ export interface Drawn {
 export interface Adapter {
   name: string;
   /** What the form below lacks here: a filter, options that are refused by the call itself. */
-  lacks?: readonly ("filter" | "refusal" | "flags" | "direction")[];
+  lacks?: readonly ("filter" | "refusal" | "flags" | "direction" | "recovery")[];
   make(positions: Float32Array, options: object): Promise<Drawn> | Drawn;
 }
 
@@ -249,6 +250,37 @@ const ofDeck: Adapter["make"] = (positions, options) => {
   };
 };
 
+/** A stream of answers, of which this draws the points. */
+const ofStream: Adapter["make"] = async (positions, options) => {
+  const told = { changes: [] as Change[], errors: [] as Error[] };
+  const cloud = await WorkerPointCloud.create(positions, { shared: true });
+  const stream = cloud.follow({
+    ...options,
+    onAnswer: ({ answer, visibility: { count } }) => told.changes.push({ answer, count }),
+    onError: (error) => told.errors.push(error),
+  });
+  return {
+    ...told,
+    look: (place) => {
+      stream.look(place);
+    },
+    lookAlong: (direction) => {
+      stream.lookAlong(direction);
+    },
+    drawn: () => Array.from(stream.visible ?? Array.from({ length: cloud.length }, (_, i) => i)),
+    get settled() {
+      return stream.settled;
+    },
+    get answer() {
+      return stream.last?.answer ?? null;
+    },
+    dispose: async () => {
+      stream.dispose();
+      await cloud.dispose();
+    },
+  };
+};
+
 /** The cloud in three nodes of an octree of Potree's, one of them far from the origin. */
 const ofPotree: Adapter["make"] = (positions, options) => {
   const viewer = viewerOf(positions, 3);
@@ -285,4 +317,5 @@ export const ADAPTERS: Adapter[] = [
   { name: "useHiddenPointFilter", make: ofReact, lacks: ["direction", "refusal"] },
   { name: "VisiblePointCloudLayer", make: ofDeck, lacks: ["filter", "flags", "refusal"] },
   { name: "PotreeFilter", make: ofPotree },
+  { name: "ViewStream", make: ofStream, lacks: ["filter", "flags", "refusal", "recovery"] },
 ];

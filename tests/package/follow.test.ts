@@ -1,5 +1,5 @@
 // How answers keep up with a camera. All adapters and the demo page share this code. The tests
-// control the time, the questions and the answers.
+// control the time, the questions and the answers. adapters.test.ts has what each adapter promises by it.
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 
 import { HprError } from "../../src/ts/base/errors.js";
@@ -153,16 +153,6 @@ describe("a follower", () => {
     expect(scene.follower.isBusy).toBe(false);
   });
 
-  it("asks the same view once", async () => {
-    scene.see("a");
-    scene.see("a");
-    scene.last.answer("1");
-    await settled();
-    scene.see("a");
-    await settled();
-    expect(scene.questions).toEqual(["a"]);
-  });
-
   it("reports an answer when the next question is on its way, even if listeners throw", async () => {
     const unhandled: unknown[] = [];
     const listener = (error: unknown) => unhandled.push(error);
@@ -214,31 +204,6 @@ describe("a follower", () => {
     await settled();
     expect(scene.questions).toEqual(questions);
     expect(scene.log).toEqual(["a given up"]);
-  });
-
-  it("says whether a refusal follows another, until there is an answer", async () => {
-    for (const view of ["a", "b"]) {
-      scene.see(view);
-      scene.last.refuse(new Error(`${view} refused`));
-      await settled();
-    }
-    scene.see("c");
-    scene.last.answer("1");
-    await settled();
-    scene.see("d");
-    scene.last.refuse(new Error("d refused"));
-    await settled();
-    expect(scene.log).toEqual(["a refused", "b refused again", "c: 1", "told c", "d refused"]);
-  });
-
-  it("does not ask a refused view again, but asks another", async () => {
-    scene.see("a");
-    scene.last.refuse(new Error("refused"));
-    await settled();
-    scene.see("a");
-    expect(scene.questions).toEqual(["a"]);
-    scene.see("b");
-    expect(scene.questions).toEqual(["a", "b"]);
   });
 
   it("asks by itself for a view that came while another was refused, even if a listener throws", async () => {
@@ -324,77 +289,6 @@ describe("a follower", () => {
     [stage, view] = [0, "b"];
     await settled();
     expect(asked).toEqual(["a map", "b map", "b exact"]);
-  });
-});
-
-describe("a follower whose worker is lost", () => {
-  const TIMES: RecoveryTimes = { delays: [0, 100], pause: 1000, longPause: 5000 };
-  let scene: Scene;
-
-  beforeEach(() => {
-    scene = new Scene(TIMES);
-  });
-
-  async function lose(): Promise<void> {
-    scene.last.refuse(LOST);
-    await settled();
-  }
-
-  it("asks again by itself, without a report", async () => {
-    scene.see("a");
-    await lose();
-    expect(scene.follower).toMatchObject({ isLost: true, isBusy: false, isWaiting: true });
-    scene.see("b");
-    expect(scene.questions).toEqual(["a"]);
-    vi.advanceTimersByTime(0);
-    expect(scene.questions).toEqual(["a", "b"]);
-    expect(scene.follower).toMatchObject({ isLost: false, isBusy: true });
-    expect(scene.log).toEqual(["lost"]);
-  });
-
-  it("reports once that it is lost for good, and asks again on request, after a pause", async () => {
-    scene.see("a");
-    for (const delay of TIMES.delays) {
-      await lose();
-      vi.advanceTimersByTime(delay);
-    }
-    await lose();
-    expect(scene.questions).toEqual(["a", "a", "a"]);
-    expect(scene.log).toEqual(["lost", "lost", "lost for good", "the worker died"]);
-    expect(scene.follower).toMatchObject({ isLost: true, isWaiting: false });
-    vi.advanceTimersByTime(999);
-    scene.follower.wish(true);
-    vi.advanceTimersByTime(1);
-    scene.follower.wish(false);
-    expect(scene.questions).toHaveLength(3);
-    scene.follower.wish(true);
-    expect(scene.questions).toHaveLength(4);
-    await lose();
-    expect(scene.log.slice(4)).toEqual(["lost for good", "the worker died again"]);
-    vi.advanceTimersByTime(5000);
-    scene.follower.wish(false);
-    scene.last.answer("1");
-    await settled();
-    expect(scene.log.slice(6)).toEqual(["a: 1", "told a"]);
-    scene.see("b");
-    await lose();
-    expect(scene.log.at(-1)).toBe("lost");
-  });
-
-  it("forgets about it at the end", async () => {
-    scene.see("a");
-    await lose();
-    expect(vi.getTimerCount()).toBe(1);
-    scene.follower.stop();
-    expect(vi.getTimerCount()).toBe(0);
-  });
-
-  it("treats the loss as any other refusal if there is nothing to make again", async () => {
-    scene = new Scene();
-    scene.see("a");
-    await lose();
-    expect(scene.log).toEqual(["the worker died"]);
-    expect(scene.follower.isLost).toBe(false);
   });
 });
 

@@ -1,4 +1,4 @@
-// The stream of answers for a viewpoint that moves: `follow` of the worker client.
+// The stream of answers for a viewpoint that moves: `follow` of the worker client. adapters.test.ts has what it shares with filters.
 import type { StreamedAnswer, WorkerPointCloud as Cloud } from "hidden-point-removal/worker";
 import { afterEach, beforeAll, describe, expect, it } from "vitest";
 
@@ -97,62 +97,6 @@ describe("a stream", () => {
     stream.dispose();
   });
 
-  it("draws all points, or the last answer, until the present view is answered", async () => {
-    for (const stale of ["keep", "all"] as const) {
-      const { stream, kinds } = follow({ stale });
-      stream.look(at(1));
-      await settled(stream);
-      expect(kinds()).toEqual(["operator"]);
-      stream.look(at(1.5));
-      expect(stream.settled).toBe(false);
-      expect(stream.visible === null).toBe(stale === "all");
-      await settled(stream);
-      expect(stream.visible).not.toBe(null);
-      stream.dispose();
-    }
-  });
-
-  it("serves clouds of one worker in turn: each comes to rest, also while another view moves", async () => {
-    const those = await Promise.all([1, 2, 3, 4].map((seed) => cloudOf(bumpySphere(seed, 6000), { shared: true })));
-    const [moving, ...resting] = those.map((of) => follow({ settle: { looks: 3 } }, of).stream);
-    for (const stream of resting) stream.look(at(0));
-    for (let angle = 0; resting.some((stream) => !stream.settled); angle += 0.01) {
-      moving!.look(at(angle));
-      await new Promise((next) => setTimeout(next, 2));
-    }
-    expect(moving!.settled).toBe(false);
-    await settled(moving!);
-    expect(resting.map(({ last }) => last!.visibility)).toEqual(
-      [2, 3, 4].map((seed) => new PointCloud(bumpySphere(seed, 6000)).visibleFrom(at(0), { looks: 3 })),
-    );
-    for (const stream of [moving!, ...resting]) stream.dispose();
-  });
-
-  it("asks nothing for moves that are too short to be seen", async () => {
-    const share = cloud.spacing;
-    const asked = async (move: number) => {
-      const { stream, answers } = follow();
-      stream.look([0, 0, 5]);
-      await settled(stream);
-      const before = answers.length;
-      stream.look([move, 0, 5]);
-      await settled(stream);
-      stream.dispose();
-      return answers.length > before;
-    };
-    expect(await asked(0.0009 * share)).toBe(false);
-    expect(await asked(0.002 * share)).toBe(true);
-    const { stream, answers } = follow();
-    stream.lookAlong([0, 0, -1]);
-    await settled(stream);
-    stream.lookAlong([5e-7, 0, -1]);
-    await settled(stream);
-    expect(answers.map(({ answer }) => answer)).toEqual(["operator"]);
-    expect(answers[0]!).toMatchObject({ viewpoint: null, direction: [0, 0, -1] });
-    expect(answers[0]!.visibility).toEqual(local.visibleFromDirection([0, 0, -1]));
-    stream.dispose();
-  });
-
   it("asks again after the cloud has changed", async () => {
     const changing = await cloudOf(few);
     const { stream, answers } = follow({}, changing);
@@ -166,18 +110,7 @@ describe("a stream", () => {
     stream.dispose();
   });
 
-  it("tells of a refusal once, and goes on", async () => {
-    const { stream, answers, errors } = follow({ radius: 5, settle: {} });
-    for (const far of [50, 60]) {
-      stream.look([0, 0, far]);
-      await settled(stream);
-    }
-    expect(errors).toEqual([expect.objectContaining({ name: "HprError", code: "radius" })]);
-    stream.look([0, 0, 2]);
-    await settled(stream);
-    expect(answers.map(({ answer }) => answer)).toEqual(["operator", "operator"]);
-    stream.dispose();
-
+  it("rejects an iterator with a refusal", async () => {
     const awaited = cloud.follow({ radius: 5 });
     awaited.look([0, 0, 50]);
     await expect(awaited[Symbol.asyncIterator]().next()).rejects.toMatchObject({ code: "radius" });
