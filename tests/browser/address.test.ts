@@ -9,7 +9,6 @@ import {
   answered,
   answerInNode,
   drag,
-  dragonPositions,
   openPage,
   openReady,
   PHONE,
@@ -46,13 +45,6 @@ test("?sample, ?view and ?exponent together give exactly the package's answer", 
   expect(now.exponent).toBeCloseTo(2.5, 12);
   const positions = Float32Array.from(bunny.positions.flat());
   expect(now).toMatchObject(await answerInNode(positions, now, { exponent: 2.5 }));
-});
-
-test("?view alone leaves the radius automatic, and looks at the middle of the cloud", async () => {
-  const page = await openReady("?sample=dragon_res4&view=0.1,0.2,0.3");
-  const now = await settled(page);
-  expect(now.viewpoint).toEqual([0.1, 0.2, 0.3]);
-  expect(now).toMatchObject(await answerInNode(dragonPositions("_res4"), now));
 });
 
 test("?src opens a file from the web", async () => {
@@ -106,12 +98,19 @@ test.for([
   expect(asked).toMatchObject({ settings: {}, src: null, view: null, target: null });
 });
 
-test("if the exponent cannot be used and a radius is given, the radius is used, and the message says so", async () => {
-  const page = await openReady("?sample=dragon_res4&exponent=abc&radius=9");
-  expect(await settled(page)).toMatchObject({ answer: "operator", radius: 9 });
-  expect(await page.locator("#message p").textContent()).toBe(
+test.for([
+  [
+    "exponent=abc&radius=9",
+    { length: 9 },
     "The exponent in the address is not a number from 0 to 6, so the radius is used.",
-  );
+  ],
+  [
+    "radius=40&exponent=2",
+    { exponent: 2 },
+    "Radius and exponent in the address exclude each other, so the exponent is used.",
+  ],
+] as const)("?%s: one of the two is used, and a note says which", ([query, radius, note]) => {
+  expect(readAddress(query, ["bunny"])).toMatchObject({ settings: { radius }, notes: [note] });
 });
 
 test("a view and a frozen viewpoint out of reach are refused with a note, and the sample is seen as usual", async () => {
@@ -223,12 +222,6 @@ test("at the first view and with the usual settings the address is empty", async
   await page.getByRole("button", { name: "Automatic" }).click();
   await page.getByRole("button", { name: "Reset view" }).click();
   expect(await written(page)).toBe("?sample=dragon_res4");
-});
-
-test("a radius and an exponent exclude each other", async () => {
-  const page = await openReady("?sample=bunny&radius=40&exponent=2");
-  expect((await upToDate(page)).exponent).toBeCloseTo(2, 12);
-  expect(await page.locator("#message p").textContent()).toMatch(/exclude each other/);
 });
 
 test("the settings of one cloud do not go to the next", async () => {

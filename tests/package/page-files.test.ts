@@ -105,6 +105,7 @@ it.each<[string, Uint8Array, RegExp]>([
   ["scale.las", changed(las(far), 139, NaN, "setFloat64"), /has no usable scale and offset/],
   ["offset.las", changed(las(far), 94, 3, "setUint16"), /the sizes in its LAS header are impossible/],
   ["swapped.las", text("FSAL and so on"), /it does not begin like a LAS file/],
+  ["formats.laz", changed(changed(laz, 104, 128 + 4, "setUint8"), 105, 57, "setUint16"), /describe different points/],
   ["cut.laz", laz.slice(0, 3000), /cannot be read: it ends before the 600 points/],
   ["draco.glb", glb(near, { required: ["KHR_draco_mesh_compression"] }), /is compressed with Draco, which is not read/],
   ["unknown.glb", glb(near, { required: ["EXT_of_tomorrow"] }), /needs an extension .* \(EXT_of_tomorrow\)/],
