@@ -20,7 +20,7 @@ const next = (milliseconds = 2) => new Promise((resolve) => setTimeout(resolve, 
 describe.each(ADAPTERS.map((adapter) => [adapter.name, adapter] as const))("%s", (_, adapter) => {
   const having = (what: NonNullable<typeof adapter.lacks>[number]) => (adapter.lacks?.includes(what) ? it.skip : it);
 
-  describe.each([1, 3])("with %i cloud(s) on the page", (clouds) => {
+  describe.each(adapter.clouds)("with %i cloud(s) on the page", (clouds) => {
     const spheres = Array.from({ length: clouds }, (_, k) => bumpySphere(k + 1, COUNT));
     const local = spheres.map((positions) => () => new PointCloud(positions));
     const started = watchedWorkers((worker, number) => {

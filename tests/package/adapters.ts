@@ -44,6 +44,8 @@ export interface Drawn {
 
 export interface Adapter {
   name: string;
+  /** How many clouds are on the page. Adapters that differ in their drawing alone are tried with one. */
+  clouds: readonly number[];
   /** What the form below lacks here: a filter, options that are refused by the call itself. */
   lacks?: readonly ("filter" | "refusal" | "flags" | "direction" | "recovery")[];
   make(positions: Float32Array, options: object): Promise<Drawn> | Drawn;
@@ -310,12 +312,12 @@ const ofPotree: Adapter["make"] = (positions, options) => {
 };
 
 export const ADAPTERS: Adapter[] = [
-  { name: "HiddenPointFilter", make: ofPoints(HiddenPointFilter) },
-  { name: "HiddenPointFilter for WebGPU", make: ofPoints(webgpu.HiddenPointFilter) },
-  { name: "HiddenPointNodesFilter of one node", make: ofNodes(HiddenPointNodesFilter, 1) },
-  { name: "HiddenPointNodesFilter for WebGPU", make: ofNodes(webgpu.HiddenPointNodesFilter, 3) },
-  { name: "useHiddenPointFilter", make: ofReact, lacks: ["direction", "refusal"] },
-  { name: "VisiblePointCloudLayer", make: ofDeck, lacks: ["filter", "flags", "refusal"] },
-  { name: "PotreeFilter", make: ofPotree },
-  { name: "ViewStream", make: ofStream, lacks: ["filter", "flags", "refusal", "recovery"] },
+  { name: "HiddenPointFilter", clouds: [1, 3], make: ofPoints(HiddenPointFilter) },
+  { name: "HiddenPointFilter for WebGPU", clouds: [1], make: ofPoints(webgpu.HiddenPointFilter) },
+  { name: "HiddenPointNodesFilter of one node", clouds: [1], make: ofNodes(HiddenPointNodesFilter, 1) },
+  { name: "HiddenPointNodesFilter for WebGPU", clouds: [3], make: ofNodes(webgpu.HiddenPointNodesFilter, 3) },
+  { name: "useHiddenPointFilter", clouds: [3], make: ofReact, lacks: ["direction", "refusal"] },
+  { name: "VisiblePointCloudLayer", clouds: [1, 3], make: ofDeck, lacks: ["filter", "flags", "refusal"] },
+  { name: "PotreeFilter", clouds: [3], make: ofPotree },
+  { name: "ViewStream", clouds: [1, 3], make: ofStream, lacks: ["filter", "flags", "refusal", "recovery"] },
 ];
