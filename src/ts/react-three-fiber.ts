@@ -52,7 +52,7 @@ export function useHiddenPointFilter(
 ): HiddenPointFilter | null {
   const { frozen = false, enabled = true, onChange, onError, ...settings } = options;
   const { mode, dimMaterial, cloud, worker, nonFinite, stale, origin, ...asked } = settings;
-  const [place, view] = [origin && Array.from(origin).join(), JSON.stringify(asked)];
+  const [place, view] = [JSON.stringify(origin), JSON.stringify(asked)];
   const invalidate = useThree((state) => state.invalidate);
   const [points, setPoints] = useState<Points | null>(null);
   const [filter, setFilter] = useState<HiddenPointFilter | null>(null);

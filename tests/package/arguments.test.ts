@@ -1,18 +1,21 @@
 // Arguments as users hold them, for every question here and in workers: vectors of classes, records without a prototype,
 // arrays that change after the call, signals with a reason.
 import * as hpr from "hidden-point-removal";
-import { init } from "hidden-point-removal";
+import { init, type Viewpoint } from "hidden-point-removal";
 import { colmapVis } from "hidden-point-removal/files";
+import { PointCloud as LitePointCloud, init as initLite } from "hidden-point-removal/lite";
+import { HiddenPointNodesFilter } from "hidden-point-removal/nodes";
+import { HiddenPointFilter } from "hidden-point-removal/three";
 import { WorkerPointCloud } from "hidden-point-removal/worker";
-import { Vector3 } from "three";
+import { BufferAttribute, BufferGeometry, Group, PerspectiveCamera, Points, Quaternion, Vector3 } from "three";
 import { afterAll, describe, expect, it } from "vitest";
 
 import { transferredAway } from "../fuzz/border/argument";
 import { outcomeOf } from "../fuzz/border/outcome";
 import { type AnyCloud, asked, CAMERAS, Part, QUESTIONS } from "../fuzz/border/table";
-import { bumpySphere, problemOf } from "./support";
+import { bumpySphere, expectRefusal, problemOf } from "./support";
 
-await init();
+await Promise.all([init(), initLite()]);
 const { HprError, PointCloud } = hpr;
 const positions = bumpySphere(3, 3000);
 const ALL = new Part(positions.length / 3);
@@ -125,6 +128,7 @@ describe.each(Object.keys(QUESTIONS))("%s", (name) => {
 
   it("in a worker rejects with the reason of its signal, and drops what a newer question overtakes", async () => {
     const reason = new TypeError("the user went on");
+    expect(await problemOf(() => ask(remote, { signal: AbortSignal.abort(null) }))).toBeNull();
     const controller = new AbortController();
     const given = problemOf(() => ask(remote, { signal: controller.signal }));
     controller.abort(reason);
@@ -150,7 +154,67 @@ describe.each(Object.keys(QUESTIONS))("%s", (name) => {
   });
 });
 
+it("takes vectors wherever a place stands", () => {
+  const [low, high, turn] = [new Vector3(-1, -1, -0.3), new Vector3(0.7, 1, 1), new Quaternion(0, 0, 0, 2)];
+  const within = (box: readonly [Viewpoint, Viewpoint]) => cloud.visibleFrom(FAR, { within: { box } }).indices;
+  expect(within([low, high])).toEqual(within([low.toArray(), high.toArray()]));
+  const horizon = new hpr.Horizon(new Vector3(...FAR), { radius: 100 });
+  expect(horizon.hidesBox(low, high)).toBe(horizon.hidesBox(low.toArray(), high.toArray()));
+  horizon.dispose();
+  const posed = hpr.cameraFromPose(low.toArray(), [0, 0, 0, 2], CAMERAS[0]!);
+  expect(hpr.cameraFromPose(low, turn, CAMERAS[0]!)).toEqual(posed);
+});
+
+describe.each([
+  ["here", () => Promise.resolve(new PointCloud(positions))],
+  ["in a worker", () => WorkerPointCloud.create(positions)],
+  ["of lite", () => Promise.resolve(new LitePointCloud(positions))],
+])("indices to remove, %s", (_, make) => {
+  it.each<[RegExp, () => object]>([
+    [/transferred away, got an object of type Uint32Array/, () => transferredAway(Uint32Array.of(1, 2))],
+    [/transferred away, got an object of type Float64Array/, () => transferredAway(Float64Array.of(1, 2))],
+    [/got a mask/, () => cloud.visibleFrom(FAR).mask()],
+    [/got a mask/, () => [...cloud.visibleFrom(FAR).mask()]],
+  ])("must not be what %s names", async (names, indices) => {
+    const own = await make();
+    await expectRefusal("option", names, () => own.remove(indices() as never));
+    expect((await own.visibleFrom(FAR)).indices).toEqual(cloud.visibleFrom(FAR).indices);
+    await own.dispose();
+  });
+});
+
+it("a filter takes its cloud, its nodes and its listeners from functions that give some", async () => {
+  const points = () => new Points(new BufferGeometry().setAttribute("position", new BufferAttribute(positions, 3)));
+  const camera = new PerspectiveCamera();
+  camera.position.set(...FAR);
+  const settled = async (filter: HiddenPointFilter | HiddenPointNodesFilter) => {
+    const error = new Promise((heard) => filter.addEventListener("error", (event) => heard(event.error)));
+    filter.update(camera);
+    const found = await Promise.race([error, filter.ready.then(() => filter.visibleCount)]);
+    filter.dispose();
+    return found;
+  };
+  const final = { settle: false, stale: "keep", worker: false } as const;
+  const by = (made: unknown) => settled(new HiddenPointFilter(points(), { ...final, cloud: (() => made) as never }));
+  expect(await by(new PointCloud(positions))).toBe(cloud.visibleFrom(FAR).count);
+  for (const junk of [null, undefined, 5, {}, Promise.resolve(null)]) {
+    expect(await by(junk)).toMatchObject({ code: "option" });
+    const nodes = () => (junk instanceof Promise ? [junk] : junk);
+    const filter = new HiddenPointNodesFilter(new Group(), { ...final, nodes: nodes as never });
+    expect(await settled(filter)).toMatchObject({ code: "option" });
+    const hearing = new HiddenPointFilter(points(), final);
+    await expectRefusal("option", /listener/, () => hearing.addEventListener("change", junk as never));
+    hearing.dispose();
+  }
+  const lost = points();
+  const filter = new HiddenPointFilter(lost, final);
+  Object.assign(lost.geometry.attributes["position"]!, { array: transferredAway(positions.slice()) });
+  lost.geometry.attributes["position"]!.needsUpdate = true;
+  expect(await settled(filter)).toMatchObject({ code: "positions-type" });
+});
+
 it.each<[string, () => unknown]>([
+  ["visibleFromCamera", () => cloud.visibleFromCamera([0, 0, 5] as never)],
   ["transfer", () => hpr.transfer(undefined as never, [], [])],
   ["transfer", () => hpr.transfer(cloud, [], null as never)],
   ["transfer", () => hpr.transfer(cloud, [CAMERAS[0]!], [{ data: IMAGE.data, width: 64n, height: 48 }] as never)],

@@ -2,7 +2,7 @@ import { HprError } from "../base/errors.js";
 import type { Instance } from "../instance/engine.js";
 import type { Bindings as AllBindings } from "../instance/instance.js";
 import type { CloudSettings, CloudSize } from "../query/options.js";
-import { packed, readIndices, readPositions } from "../query/positions.js";
+import { packed, readIndices, readPositions, refuseMask } from "../query/positions.js";
 import type { Answers, Query, QueryKind } from "../query/queries.js";
 import type * as lite from "../lite/hpr_bg.js";
 import { freeCloud, unreachable } from "../instance/engine.js";
@@ -75,6 +75,7 @@ export class HeldCloud<Bindings extends OperatorBindings> {
   remove(indices: ArrayLike<number>): void {
     this.requireOpen();
     const integers = readIndices(indices);
+    refuseMask(integers, this.size.length);
     const { instance, handle } = this.requireOpen();
     this.#size = instance.call((bindings) => bindings.remove(handle, integers));
   }

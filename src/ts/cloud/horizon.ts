@@ -74,7 +74,7 @@ export class Horizon {
    * @param max the largest x, y, z.
    * @throws HprError `option` (not finite, or a minimum above its maximum), `disposed`, `internal`.
    */
-  hidesBox(min: ArrayLike<number>, max: ArrayLike<number>): boolean {
+  hidesBox(min: Viewpoint, max: Viewpoint): boolean {
     const corners = readBox(min, max);
     const handle = this.#requireHandle();
     return this.#instance.call((bindings) => bindings.hidesBox(handle, corners));
@@ -125,11 +125,11 @@ export class Horizon {
  *
  * @throws HprError `option`.
  */
-export function readBox(min: ArrayLike<number>, max: ArrayLike<number>): Float64Array<ArrayBuffer> {
+export function readBox(min: Viewpoint, max: Viewpoint): Float64Array<ArrayBuffer> {
   return Float64Array.from([...readCorner(min, "min"), ...readCorner(max, "max")]);
 }
 
-function readCorner(corner: ArrayLike<number>, name: string): number[] {
+function readCorner(corner: Viewpoint, name: string): number[] {
   try {
     return readViewpoint(corner, 3, name);
   } catch (cause) {

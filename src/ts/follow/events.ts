@@ -1,14 +1,23 @@
+import { describe, HprError } from "../base/errors.js";
+
 type Name<Events> = Extract<keyof Events, string>;
 
 /** Sends events to listeners, as the `EventDispatcher` of three does, which not every viewer has. */
 export class Events<Contents extends object> {
   readonly #listeners = new Map<string, unknown[]>();
 
-  /** Calls the listener with each event of that type. */
+  /**
+   * Calls the listener with each event of that type.
+   *
+   * @throws HprError `option` for what is no function.
+   */
   addEventListener<T extends Name<Contents>>(
     type: T,
     listener: (event: Contents[T] & Readonly<Record<"type", T> & Record<"target", this>>) => void,
   ): void {
+    if (typeof listener !== "function") {
+      throw new HprError("option", `a listener must be a function, got ${describe(listener)}`);
+    }
     if (!this.hasEventListener(type, listener)) {
       this.#listeners.set(type, [...(this.#listeners.get(type) ?? []), listener]);
     }

@@ -1,6 +1,6 @@
 import { Matrix4, type Object3D, type Points } from "three";
 
-import { HprError } from "../base/errors.js";
+import { describe, HprError } from "../base/errors.js";
 import type { VisibilityMap } from "../cloud/visibility-map.js";
 import { versionOf } from "../three/attribute.js";
 import { isDimmed } from "../three/dimmed.js";
@@ -333,7 +333,10 @@ function isPoints(object: Object3D): object is Points {
 }
 
 /** Returns each node once, even if it is listed several times. */
-function listed(nodes: Iterable<Points>): Set<Points> {
+function listed(nodes: Iterable<Points> | undefined): Set<Points> {
+  if (typeof nodes?.[Symbol.iterator] !== "function") {
+    throw new HprError("option", `nodes must return a list, got ${describe(nodes)}`);
+  }
   const points = new Set(nodes);
   for (const one of points) requirePoints(one);
   return points;

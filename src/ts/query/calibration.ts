@@ -3,7 +3,7 @@ import { plainView, typedArrayType } from "../base/typed-arrays.js";
 import type { Answers, Query } from "./queries.js";
 import { VIEW_ROWS } from "./option-rows.js";
 import { ownOf, requireSpace, type Rows } from "./options.js";
-import { readIndices, readViewpoint, type Viewpoint } from "./positions.js";
+import { readIndices, readViewpoint, refuseMask, type Viewpoint } from "./positions.js";
 import { refuseScores, VIEW_OPTIONS, viewSettings, type VisibilityOptions } from "./view-options.js";
 
 /** Where a scanner stood, and the points that it measured, by exactly one of `indices` and `mask`. */
@@ -80,7 +80,9 @@ function looking(given: object): VisibilityOptions {
 /** Refuses stations without points, and those whose masks or indices do not fit a cloud of so many indices. */
 export function checkStations({ masks, ends, indices }: Query<"calibrate">, length: number): void {
   masks.forEach((bytes, i) => {
-    if (bytes !== undefined && bytes !== length) {
+    if (bytes === undefined) {
+      refuseMask(indices.subarray(ends[i - 1] ?? 0, ends[i]), length, `stations[${i}]: `);
+    } else if (bytes !== length) {
       throw new HprError("option", `stations[${i}]: the mask must be a Uint8Array of ${length} bytes, got ${bytes}`);
     }
   });

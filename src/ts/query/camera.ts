@@ -1,4 +1,4 @@
-import { describe, HprError } from "../base/errors.js";
+import { describe, HprError, typeTag } from "../base/errors.js";
 import { entriesOf, requireSpace } from "./options.js";
 import { readEach, readViewpoint, type Viewpoint } from "./positions.js";
 
@@ -154,7 +154,7 @@ function coefficients(whose: string, model: CameraModel, given: unknown): number
 }
 
 function named(camera: unknown, whose: string): Record<string, unknown> {
-  if (typeof camera !== "object" || camera === null) {
+  if (typeTag(camera) !== "Object") {
     throw new HprError("viewpoint", `the ${whose} must be an object, got ${describe(camera)}`);
   }
   return entriesOf(whose, camera, NAMES);

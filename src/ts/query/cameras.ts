@@ -1,5 +1,6 @@
 import { describe, HprError } from "../base/errors.js";
 import type { Intrinsics } from "./camera.js";
+import type { Viewpoint } from "./positions.js";
 
 /** An {@link ImageCamera} whose pose is from the camera's space to the cloud's. */
 export type PosedCamera = Intrinsics & { cameraToWorld: ArrayLike<number>; convention: "opencv" | "opengl" };
@@ -11,12 +12,12 @@ export type PosedCamera = Intrinsics & { cameraToWorld: ArrayLike<number>; conve
  * @throws HprError `viewpoint` for a pose that is not of numbers, or a quaternion of length 0.
  */
 export function cameraFromPose(
-  position: ArrayLike<number>,
-  quaternion: ArrayLike<number>,
+  position: Viewpoint,
+  quaternion: ArrayLike<number> | { readonly x: number; readonly y: number; readonly z: number; readonly w: number },
   intrinsics: Intrinsics,
   convention: "opencv" | "opengl" = "opencv",
 ): PosedCamera {
-  const [px, py, pz] = list("position", position, 3) as [number, number, number];
+  const place = list("position", position, 3);
   const turn = list("quaternion", quaternion, 4);
   const length = Math.hypot(...turn);
   if (!(length > 0 && length < Infinity)) {
@@ -27,7 +28,8 @@ export function cameraFromPose(
     ...[1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w), 0],
     ...[2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w), 0],
     ...[2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y), 0],
-    ...[px, py, pz, 1],
+    ...place,
+    1,
   ];
   return { ...intrinsics, cameraToWorld, convention };
 }
@@ -103,11 +105,13 @@ function checkSize(width: number, height: number): void {
   }
 }
 
-function list(name: string, values: unknown, count: number): number[] {
-  const length = typeof values === "object" && values !== null && "length" in values ? values.length : undefined;
-  const numbers = length === count ? Array.from(values as ArrayLike<unknown>) : [];
-  if (length !== count || !numbers.every((value) => typeof value === "number")) {
-    throw new HprError("viewpoint", `the camera's ${name} must be ${count} numbers, got ${describe(values)}`);
+/** So many numbers: a list, or the x, y, z and w of a vector or a quaternion, which may have a method `length`. */
+function list(name: string, given: unknown, count: number): number[] {
+  const own = Object(given) as Record<string | number, unknown>;
+  const isVector = typeof own["length"] !== "number";
+  const numbers = Array.from({ length: count }, (_, i) => own[isVector ? "xyzw"[i]! : i]);
+  if (!(isVector || own["length"] === count) || !numbers.every((value) => typeof value === "number")) {
+    throw new HprError("viewpoint", `the camera's ${name} must be ${count} numbers, got ${describe(given)}`);
   }
   return numbers;
 }

@@ -47,7 +47,7 @@ export interface Within {
   /** The points at most this far from the viewpoint, in the cloud's units. At least 0. */
   distance?: number | undefined;
   /** The points in this box, its faces included: `[min, max]`, each with as many numbers as a point. */
-  box?: readonly [min: ArrayLike<number>, max: ArrayLike<number>] | undefined;
+  box?: readonly [min: Viewpoint, max: Viewpoint] | undefined;
   /** The points whose byte is not 0. There is one byte for each index of the cloud. */
   mask?: Uint8Array | undefined;
 }

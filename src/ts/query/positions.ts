@@ -99,7 +99,7 @@ export function readViewpoint(given: unknown, dimension: number, name = "viewpoi
 }
 
 /** Any object with x, y and z, such as a vector of three.js, as a list. Its class may have a method `length`. */
-function listed(given: unknown, dimension: number): unknown {
+export function listed(given: unknown, dimension: number): unknown {
   if (dimension > 3 || typeof given !== "object" || given === null || ArrayBuffer.isView(given)) {
     return given;
   }
@@ -131,11 +131,14 @@ export function readEach<T>(
   return Array.from(list, (given: unknown, i) => read(given, `${name}[${i}]`));
 }
 
-/** A copy of the indices of points to remove. The core checks that the cloud has these points. */
+/** A copy of the indices of points. The core checks that the cloud has these points. */
 export function readIndices(indices: unknown): Uint32Array<ArrayBuffer> {
-  const length = lengthOf(indices);
+  const length = lengthOf(isNumberArray(indices) ? plainNumbers(indices) : indices);
   if (length === undefined) {
-    throw new HprError("option", `indices must be an array of integers, got ${describe(indices)}`);
+    throw new HprError(
+      "option",
+      `indices must be an array of integers, not transferred away, got ${describe(indices)}`,
+    );
   }
   const integers = allocating(`${length} indices`, () => new Uint32Array(length));
   for (let i = 0; i < length; i++) {
@@ -146,6 +149,13 @@ export function readIndices(indices: unknown): Uint32Array<ArrayBuffer> {
     integers[i] = index;
   }
   return integers;
+}
+
+/** Refuses a mask, ones and zeros for each of so many points: as indices, it would name the points 0 and 1 alone. */
+export function refuseMask(indices: Uint32Array, count: number, whose = ""): void {
+  if (count > 2 && indices.length === count && indices.every((index) => index <= 1)) {
+    throw new HprError("option", `${whose}indices must be numbers of points, got a mask`);
+  }
 }
 
 export function isFloatArray(value: unknown): value is Float32Array | Float64Array {

@@ -3,6 +3,7 @@ import { type OneWay, VIEW_ROWS, type VisibilityOptions } from "./option-rows.js
 import type { Inversion, RadiusRule, ResolvedInversion, Within, Without } from "./option-types.js";
 import { type Checked, checkRows, entriesOf, number, requireLow } from "./options.js";
 import { plainView, typedArrayType } from "../base/typed-arrays.js";
+import { listed } from "./positions.js";
 
 export type { Within };
 
@@ -37,7 +38,7 @@ function numbers(distance = Infinity, { min, max }: { min: number[]; max: number
 }
 
 function readBox(box: unknown, dimension: number): { min: number[]; max: number[] } {
-  const [min, max] = (listOf(box, 2) ?? []).map((corner) => listOf(corner, dimension));
+  const [min, max] = (listOf(box, 2) ?? []).map((corner) => listOf(listed(corner, dimension), dimension));
   const areNumbers = (list?: unknown[]): list is number[] => list?.every((x) => typeof x === "number") === true;
   if (!areNumbers(min) || !areNumbers(max)) {
     throw new HprError("option", `within box must be [min, max], each with ${dimension} numbers, got ${describe(box)}`);

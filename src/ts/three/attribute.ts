@@ -26,10 +26,10 @@ export function requirePositions(
   if ("isGLBufferAttribute" in attribute) {
     throw new HprError("positions-type", "position is a GLBufferAttribute: its numbers are on the graphics card alone");
   }
-  if (typedArrayType(attribute.array) === undefined) {
-    throw new HprError("positions-type", `position has no array any more, but ${describe(attribute.array)}`);
+  const { itemSize, getX, count, array } = attribute as Partial<PositionAttribute>;
+  if (typedArrayType(array) === undefined || array!.length < itemSize! * count!) {
+    throw new HprError("positions-type", `the array of position is gone or too short, got ${describe(array)}`);
   }
-  const { itemSize, getX } = attribute as Partial<PositionAttribute>;
   if (!(itemSize! >= 3) || typeof getX !== "function") {
     throw new HprError(
       "positions-type",

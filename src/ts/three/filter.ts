@@ -9,7 +9,7 @@ import { prepareCloud } from "./cloud.js";
 import { Display } from "./display.js";
 import { requireUnfiltered } from "./drawn-points.js";
 import { patchMaterial, type PatchMaterial } from "./map-material.js";
-import { type HiddenPointFilterOptions, requirePoints } from "./options.js";
+import { type HiddenPointFilterOptions, requireCloud, requirePoints } from "./options.js";
 
 /** The events of a filter. */
 export interface HiddenPointFilterEvents {
@@ -181,7 +181,7 @@ export class HiddenPointFilter extends CameraFilter<HiddenPointFilterEvents> {
         if (cloud === undefined) return prepareCloud(numbers, own, this.settings);
         const points = numbers.length / 3;
         if (typeof cloud === "object") return withLength(cloud, points);
-        return cloud().then((made) => withLength(made, points));
+        return Promise.resolve(cloud()).then((made) => withLength(requireCloud(made), points));
       },
       use: (cloud) => {
         this.#cloud = cloud;

@@ -10,7 +10,7 @@ import {
 } from "../follow/options.js";
 import { PointCloud } from "../cloud/cloud.js";
 import { givenOptions, pick } from "../query/options.js";
-import { readViewpoint } from "../query/positions.js";
+import { readViewpoint, type Viewpoint } from "../query/positions.js";
 import { VIEW_OPTIONS } from "../query/view-options.js";
 import { WorkerPointCloud } from "../worker/client.js";
 import type { Cloud } from "../worker/followed-cloud.js";
@@ -49,7 +49,7 @@ export type HiddenPointFilterOptions = FollowedOptions &
      * Where the zero of the points' space is in `cloud`: x, y, z in double precision. So a cloud keeps the coordinates of
      * a map, and the points are drawn in single precision around their own zero. Default 0, 0, 0.
      */
-    origin?: ArrayLike<number> | undefined;
+    origin?: Viewpoint | undefined;
   };
 
 /** What is asked: options of a view, and those of the view at rest. */
@@ -173,9 +173,12 @@ function readMaterial(material: unknown): Material | undefined {
 
 function readCloud(cloud: unknown): FilterSettings["cloud"] {
   const isMaker = typeof cloud === "function";
-  if (cloud === undefined || cloud instanceof PointCloud || cloud instanceof WorkerPointCloud || isMaker) {
-    return cloud as FilterSettings["cloud"];
-  }
+  return cloud === undefined || isMaker ? (cloud as FilterSettings["cloud"]) : requireCloud(cloud);
+}
+
+/** The option `cloud`, or what it makes. */
+export function requireCloud(cloud: unknown): Cloud {
+  if (cloud instanceof PointCloud || cloud instanceof WorkerPointCloud) return cloud;
   throw new HprError(
     "option",
     `cloud must be a PointCloud, a WorkerPointCloud or a function that makes one, got ${describe(cloud)}`,

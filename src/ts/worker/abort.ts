@@ -2,7 +2,7 @@ import { describe, HprError } from "../base/errors.js";
 
 /** What rejects a promise when its signal aborts: what `abort(reason)` was given, or an `AbortError`. */
 export function reasonOf(signal: AbortSignal): unknown {
-  return signal.reason ?? abortError("aborted by its signal");
+  return signal.reason === undefined ? abortError("aborted by its signal") : signal.reason;
 }
 
 /** The error that rejects a promise when its request was given up. */

@@ -23,6 +23,7 @@ import {
   type Positions,
   readIndices,
   readPositions,
+  refuseMask,
   type Viewpoint,
 } from "../query/positions.js";
 import { surveyed, type SurveyName, surveyQuestion, type SurveyQuestion, SURVEYS } from "../query/surveys.js";
@@ -282,6 +283,7 @@ export class WorkerPointCloud {
   async remove(indices: ArrayLike<number>): Promise<void> {
     this.#queue.requireOpen();
     const own = readIndices(indices);
+    refuseMask(own, this.length);
     const request = { kind: "remove" as const, indices: own };
     this.#size = await this.#queue.ask(request, { owner: this });
   }
