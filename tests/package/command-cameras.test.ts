@@ -75,6 +75,27 @@ describe("--cameras", () => {
     ]);
   });
 
+  it("takes the size of images that the file does not say", async () => {
+    const { fx, fy, cx, cy } = plain[0]!;
+    const frame = {
+      file_path: "a",
+      transform_matrix: [0, 1, 2, 3].map((row) =>
+        [0, 1, 2, 3].map((column) => cameras[0]!.cameraToWorld[4 * column + row]),
+      ),
+    };
+    write("transforms.json", JSON.stringify({ fl_x: fx, fl_y: fy, cx, cy, frames: [frame] }));
+    const [one] = await readCameras(place("transforms.json"), { width: 30, height: 20 });
+    await done("--cameras", "transforms.json", "--size", "30x20", "--format", "pixels", "-o", "a.csv");
+    expect(lines("a.csv").length).toBe(1 + cloud.visibleFromCamera(one!.camera, { looks: 3 }).indices.length);
+    const asked = (...size: string[]) => refused("--cameras", "transforms.json", ...size, "-o", "a.idx");
+    expect(await asked()).toEqual([1, expect.stringMatching(/w must be given, or width and height \(--size WxH\)/)]);
+    expect(await asked("--size", "30,20")).toEqual([2, expect.stringMatching(/--size needs two numbers, as in/)]);
+    expect(await refused("--from", "0,0,9", "--size", "3x2", "-o", "a.idx")).toEqual([
+      2,
+      expect.stringMatching(/--size needs --cameras FILE/),
+    ]);
+  });
+
   it("writes COLMAP's file of which images see each point", async () => {
     await done("--cameras", "cameras.json", "-o", "seen.vis");
     const rows = cloud.seenBy(plain, { looks: 3 });

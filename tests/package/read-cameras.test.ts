@@ -266,7 +266,7 @@ describe("nerfstudio", () => {
   it("fields that are wrong are refused", async () => {
     const bad: [unknown, RegExp][] = [
       [{ ...whole, frames: undefined }, /frames must be an array/],
-      [{ ...whole, w: undefined }, /frames\[0\].w must be a finite number, got undefined/],
+      [{ ...whole, w: undefined }, /frames\[0\].w must be given, or width and height \(--size WxH\), got undefined/],
       [{ ...whole, fl_x: "500" }, /frames\[0\].fl_x must be a finite number, got "500"/],
       [{ ...whole, fl_x: undefined }, /frames\[0\].fl_x must be/],
       [{ ...whole, fl_x: 0 }, /frames\[0\] has 0 for fx/],
@@ -336,6 +336,22 @@ describe("KITTI and OpenCV, whose first pixel has its center at 0", () => {
       ]),
     );
     expect(odometry).toEqual(found);
+    // The raw data: the same numbers in two files, with the sizes of images.
+    const two = [
+      file(
+        "calib_cam_to_cam.txt",
+        `calib_time: 09-Jan-2012 13:57:47\ncorner_dist: 9.95e-02\nR_00: 1 2\nS_rect_02: 1241 376\n${kitti
+          .slice(0, 3)
+          .join("\n")
+          .replace("R0_rect", "R_rect_00")
+          .replaceAll(/^P/gm, "P_rect_0")}`,
+      ),
+      file("calib_velo_to_cam.txt", "calib_time: 15-Mar-2012\nR: 0 -1 0 0 0 -1 1 0 0\nT: 0.1 0.2 -0.3\ndelta_f: 0 0"),
+    ];
+    const raw = await readCameras(two);
+    expect(raw[0]).toEqual(found[0]);
+    expect(raw[1]).toEqual({ ...found[1], camera: { ...found[1]!.camera, width: 1241, height: 376 } });
+    for (const one of two) expect(await refused(one)).toMatch(/KITTI's raw calibration is two files: give/);
     const sized = await readCameras(new Blob([kitti.join("\n")]), { width: 1224, height: 370 });
     expect(sized[0]!.camera).toMatchObject({ width: 1224, height: 370 });
     for (const [from, to, message] of [

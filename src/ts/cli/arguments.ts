@@ -3,13 +3,23 @@ import { parseArgs } from "node:util";
 import { TRANSFER_FLAGS, VIEW_FLAGS } from "./flags.js";
 import { HprError } from "../base/errors.js";
 import type { ChosenColumns } from "../formats/axes.js";
+import type { ImageSize } from "../files/read-cameras.js";
 import { PointCloud } from "../index.js";
 import { TRANSFER_ROWS, type TransferOptions } from "../query/option-rows.js";
 import type { VisibilityOptions } from "../query/view-options.js";
 import { MAX_WORKERS } from "../worker/team.js";
 import { endingOf, FORMATS } from "./formats.js";
 import { chosenFormat, type OutputFormat } from "./outputs.js";
-import { oneOf, readColumns, readCount, readOption, readThreshold, readViewpoint, UsageProblem } from "./values.js";
+import {
+  oneOf,
+  readColumns,
+  readCount,
+  readOption,
+  readSize,
+  readThreshold,
+  readViewpoint,
+  UsageProblem,
+} from "./values.js";
 
 function lines(flags: readonly (readonly [name: string, value: string, about: string])[]): string {
   return flags.map(([name, value, about]) => wrapped(`  --${name} ${value}`, about)).join("\n");
@@ -43,6 +53,7 @@ From where (one of the three, in the coordinates of the file):
                        height and, if needed, model, distortion, near, far, or a list of such, each
                        with the name of its "image"; COLMAP's folder with cameras and images;
                        transforms.json of nerfstudio; calib.txt of KITTI; YAML of OpenCV and ROS
+  --size WxH           the size of their images in pixels, if the file does not say it
   --images DIR         with --cameras: the folder of their images. Each point gets the color
                        that the cameras see there (needs sharp: npm install sharp)
 ${lines(TRANSFER_FLAGS)}
@@ -93,6 +104,8 @@ export interface Settings {
   /** From where: a viewpoint, or the name of a file with viewpoints, or with cameras. */
   place: { viewpoint: number[] } | { viewpoints: string; each: boolean } | { cameras: string; each: boolean };
   /** The folder of the cameras' images, and how their values become one. */
+  /** The size of the cameras' images, if their file does not say it. */
+  size: ImageSize | undefined;
   images: ({ images: string } & Pick<TransferOptions, "merge" | "weights">) | undefined;
   options: VisibilityOptions;
   /** The least score of a point that counts as visible. Undefined for the answer's own choice. */
@@ -155,6 +168,7 @@ export function readArguments(args: string[]): Settings | "help" | "version" {
         : values.cameras !== undefined
           ? { cameras: values.cameras, each }
           : { viewpoints: values.viewpoints!, each },
+    size: values.size === undefined ? undefined : readSize(values.size),
     images:
       values.images === undefined
         ? undefined
@@ -190,6 +204,7 @@ function parsed(args: string[]) {
         viewpoints: { type: "string" },
         cameras: { type: "string" },
         images: { type: "string" },
+        size: { type: "string" },
         output: { type: "string", short: "o" },
         format: { type: "string" },
         coverage: { type: "boolean" },
@@ -276,6 +291,7 @@ function checkCompany({ format, options, threshold, isOne, each, values }: Compa
   const many = values.viewpoints ?? values.cameras;
   needs(!coverage || many !== undefined, "--coverage", "--viewpoints FILE or --cameras FILE");
   needs(values.images === undefined || values.cameras !== undefined, "--images", "--cameras FILE");
+  needs(values.size === undefined || values.cameras !== undefined, "--size", "--cameras FILE");
   for (const name of ["merge", "weights"] as const) {
     needs(values[name] === undefined || values.images !== undefined, `--${name}`, "--images DIR");
   }

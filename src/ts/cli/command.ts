@@ -90,7 +90,7 @@ async function filter(settings: Settings, progress: Progress, say: (line: string
 }
 
 /** Reads the small files first: a mistake in them is told at once. */
-async function questionOf({ place, images, options, threshold, format }: Settings): Promise<Question> {
+async function questionOf({ place, images, size, options, threshold, format }: Settings): Promise<Question> {
   const asked = { options, threshold };
   const quietly = () => undefined;
   if ("viewpoint" in place) return { ...asked, kind: "view", seats: [{ name: "", seat: place.viewpoint }] };
@@ -99,7 +99,7 @@ async function questionOf({ place, images, options, threshold, format }: Setting
   if ("viewpoints" in place && !(await holdsCameras(file))) {
     return { ...asked, kind, seats: await readAs(file, quietly, (bytes) => viewpointsIn(bytes, place.each)) };
   }
-  const seats = await camerasIn(file, place.each);
+  const seats = await camerasIn(file, place.each, size);
   if (images !== undefined) return { ...asked, kind: "colors", seats, ...images };
   const [first, ...others] = seats;
   if (kind === "any" && format !== "vis" && first !== undefined && others.length === 0) {

@@ -7,7 +7,7 @@ import { TableRows } from "../formats/table.js";
 import { cell, isComment, separatorOf, split } from "../formats/table-words.js";
 import { bytesSource, lines as linesOf } from "../formats/source.js";
 import { trimmed } from "../formats/text.js";
-import { readCameras } from "../files/read-cameras.js";
+import { type ImageSize, readCameras } from "../files/read-cameras.js";
 import { type ImageCamera, isCamera } from "../query/camera.js";
 import { InputProblem } from "./files.js";
 
@@ -33,9 +33,10 @@ export async function holdsCameras(name: string): Promise<boolean> {
  * called as its image is, without the folder and the ending, or by its number, from 1.
  *
  * @param inFileNames whether the names become parts of names of files
+ * @param size that of the images, if the file does not say it
  */
-export async function camerasIn(file: string, inFileNames: boolean): Promise<NamedCamera[]> {
-  const cameras = await readCameras(file);
+export async function camerasIn(file: string, inFileNames: boolean, size?: ImageSize): Promise<NamedCamera[]> {
+  const cameras = await readCameras(file, size);
   if (cameras.length === 0) throw new InputProblem(`${file} cannot be read: it has no cameras`);
   const known = new Set<string>();
   return cameras.map(({ camera, image }, i) => {

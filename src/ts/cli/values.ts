@@ -12,6 +12,13 @@ export function readViewpoint(text: string): number[] {
   return numbers;
 }
 
+/** The size of images, as in 1920x1080. */
+export function readSize(text: string): { width: number; height: number } {
+  const [, width, height] = /^([1-9]\d*)x([1-9]\d*)$/.exec(text) ?? [];
+  if (height === undefined) throw new UsageProblem(`--size needs two numbers, as in --size 1920x1080, not ${text}`);
+  return { width: Number(width), height: Number(height) };
+}
+
 /** The value of an option of a view: a number, or else a word. KIND:VALUE is an object. The library checks it. */
 export function readOption(name: string, text: string): unknown {
   if (name === "within") {

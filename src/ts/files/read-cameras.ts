@@ -12,7 +12,7 @@ export type { CameraOfImage, FileSource, ImageSize };
 
 /**
  * Reads the cameras of images: COLMAP's `cameras` and `images` (`.bin` or `.txt`), nerfstudio's `transforms.json`, JSON
- * of one camera or a list of them (each with its `image`, if it has one), KITTI's `calib.txt`, and the YAML of OpenCV and ROS. u = 0 is the left edge of the first pixel, so cx and cy of OpenCV and KITTI
+ * of one camera or a list of them (each with its `image`, if it has one), KITTI's `calib.txt` or its raw pair `calib_cam_to_cam.txt` and `calib_velo_to_cam.txt`, and the YAML of OpenCV and ROS. u = 0 is the left edge of the first pixel, so cx and cy of OpenCV and KITTI
  * get ½ more.
  *
  * @param source a file, as for `readCloud`; a folder (its path, in Node), or a list of files with names (in pages, those of
@@ -34,6 +34,10 @@ export async function readCameras(
     for (const file of files) opened.push(await sourceOf(file, undefined));
     const [first, second] = opened as [NamedSource, NamedSource?];
     if (second === undefined) return await reading(first, async () => checkPoses(await readOne(first, size)));
+    if (/calib_\w+\.txt$/i.test(first.name)) {
+      const both = { ...first, name: `${first.name} or ${second.name}` };
+      return await reading(both, async () => checkPoses(await readKitti(size, first.source, second.source)));
+    }
     const isText = /\.txt$/i.test(first.name);
     const cameras = await reading(first, () => (isText ? readCameraLines : readCameraBytes)(first.source));
     const read = isText ? readImageLines : readImageBytes;
@@ -95,7 +99,12 @@ async function readOne({ source, name }: NamedSource, size: ImageSize | undefine
   const start = new TextDecoder().decode(bytes);
   if (/^\s*[[{]/.test(start)) return readJson(source, size);
   if (/^(%YAML|camera_matrix\s*:)/im.test(start)) return readOpenCv(source, size);
-  if (/^P[0-3]:?[ \t]/m.test(start)) return readKitti(source, size);
+  if (/^P[0-3]:?[ \t]/m.test(start)) return readKitti(size, source);
+  if (/^(P_rect_0\d|T):[ \t]/m.test(start)) {
+    throw new FormatProblem(
+      "KITTI's raw calibration is two files: give calib_cam_to_cam.txt and calib_velo_to_cam.txt",
+    );
+  }
   if (/^# 3D point list/im.test(start) || /points3D\.(txt|bin)$/i.test(name)) {
     throw new FormatProblem("it holds COLMAP's points, not its cameras; readCloud reads points");
   }
@@ -116,6 +125,7 @@ async function filesOf(source: unknown): Promise<unknown[]> {
     ["cameras.txt", "images.txt"],
     ["transforms.json"],
     ["calib.txt"],
+    ["calib_cam_to_cam.txt", "calib_velo_to_cam.txt"],
   ]) {
     const chosen = names.map(named);
     if (chosen.every((file) => file !== undefined)) return chosen;

@@ -8,35 +8,46 @@ import { describe, HprError } from "../../base/errors.js";
 /** The size of most of KITTI's rectified images. Its files do not say it. */
 const USUAL_SIZE: ImageSize = { width: 1242, height: 375 };
 
-/** The matrices that are read, and how many numbers they have. `Tr` is the odometry's name of `Tr_velo_to_cam`. */
-const MATRICES: Readonly<Record<string, number>> = {
-  P0: 12, P1: 12, P2: 12, P3: 12, R0_rect: 9, R_rect: 9, Tr_velo_to_cam: 12, Tr_velo_cam: 12, Tr: 12,
-}; // prettier-ignore
+/**
+ * The matrices that are read, and how many numbers they have. `Tr` is the odometry's name of `Tr_velo_to_cam`, which are `R`
+ * and `T` of the raw data; `S_rect` are sizes.
+ */
+const MATRICES: readonly (readonly [name: RegExp, count: number])[] = [
+  [/^(P(_rect_0)?[0-3]|Tr(_velo(_to)?_cam)?)$/, 12],
+  [/^(R|R0?_rect|R_rect_00)$/, 9],
+  [/^T$/, 3],
+  [/^S_rect_0\d$/, 2],
+];
 
 /** The rows of a rotation and a translation. */
 type Rigid = readonly (readonly [number, number, number, number])[];
 
 /** KITTI's calibration. The cloud is in the coordinates of the lidar; without `Tr_velo_to_cam`, in those of camera 0. */
-export async function readKitti(source: Source, size: ImageSize = USUAL_SIZE): Promise<CameraOfImage[]> {
+export async function readKitti(size: ImageSize | undefined, ...sources: Source[]): Promise<CameraOfImage[]> {
   const found = new Map<string, { numbers: number[]; line: number }>();
-  for await (const { text, number: line } of textLines(source)) {
-    const [, name = "", rest = ""] = /^(\w+):?[ \t]+(.*)$/.exec(text) ?? [];
-    const count = Object.hasOwn(MATRICES, name) ? MATRICES[name]! : undefined;
-    if (count === undefined) continue;
-    const numbers = numbersIn(wordsOf(rest), line, name);
-    if (numbers.length !== count) {
-      throw lineProblem(line, `has ${numbers.length} numbers for ${name}, which has ${count}`);
+  for (const source of sources) {
+    for await (const { text, number: line } of textLines(source)) {
+      const [, name = "", rest = ""] = /^(\w+):?[ \t]+(.*)$/.exec(text) ?? [];
+      const [, count] = MATRICES.find(([known]) => known.test(name)) ?? [];
+      if (count === undefined) continue;
+      const numbers = numbersIn(wordsOf(rest), line, name);
+      if (numbers.length !== count) {
+        throw lineProblem(line, `has ${numbers.length} numbers for ${name}, which has ${count}`);
+      }
+      if (found.has(name)) throw lineProblem(line, `has ${name} a second time`);
+      found.set(name, { numbers, line });
     }
-    if (found.has(name)) throw lineProblem(line, `has ${name} a second time`);
-    found.set(name, { numbers, line });
   }
   const named = (...names: string[]) => names.map((name) => found.get(name)).find(Boolean)?.numbers;
-  const r = named("R0_rect", "R_rect") ?? [1, 0, 0, 0, 1, 0, 0, 0, 1];
-  const t = named("Tr_velo_to_cam", "Tr_velo_cam", "Tr") ?? [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0];
+  const r = named("R0_rect", "R_rect", "R_rect_00") ?? [1, 0, 0, 0, 1, 0, 0, 0, 1];
+  const [turn, move] = [named("R"), named("T")];
+  const raw = turn && move?.flatMap((by, i) => [...turn.slice(3 * i, 3 * i + 3), by]);
+  const t = named("Tr_velo_to_cam", "Tr_velo_cam", "Tr") ?? raw ?? [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0];
   const rectified = product([0, 3, 6].map((i) => [r[i]!, r[i + 1]!, r[i + 2]!, 0]), [0, 4, 8].map((i) => [t[i]!, t[i + 1]!, t[i + 2]!, t[i + 3]!])); // prettier-ignore
   const cameras: CameraOfImage[] = [];
   for (const number of [0, 1, 2, 3]) {
-    const matrix = found.get(`P${number}`);
+    const matrix = found.get(`P${number}`) ?? found.get(`P_rect_0${number}`);
+    const [width, height] = named(`S_rect_0${number}`) ?? [USUAL_SIZE.width, USUAL_SIZE.height];
     if (matrix === undefined) continue;
     const [fx, skew, u, x, a, fy, v, y, b, c, d, z] = matrix.numbers as [number, ...number[]] & Record<number, number>;
     if (skew !== 0 || a !== 0 || b !== 0 || c !== 0 || d !== 1) {
@@ -46,8 +57,9 @@ export async function readKitti(source: Source, size: ImageSize = USUAL_SIZE): P
       );
     }
     // The first pixel's center is at 0 there.
-    const lens = checked({ fx, fy: fy!, cx: u! + 0.5, cy: v! + 0.5, ...size }, (says) =>
-      lineProblem(matrix.line, says),
+    const lens = checked(
+      { fx, fy: fy!, cx: u! + 0.5, cy: v! + 0.5, ...(size ?? { width: width!, height: height! }) },
+      (says) => lineProblem(matrix.line, says),
     );
     const moved: Rigid = [
       [1, 0, 0, (x! - u! * z!) / fx],
@@ -91,7 +103,7 @@ export async function readOpenCv(source: Source, size: ImageSize | undefined): P
   const one = (name: string) => numbersOf(fields, name, [1])?.numbers[0];
   const [width, height] = [one("image_width") ?? size?.width, one("image_height") ?? size?.height];
   if (width === undefined || height === undefined) {
-    throw new FormatProblem("it has no image_width and image_height; give width and height");
+    throw new FormatProblem("it has no image_width and image_height; give width and height (--size WxH)");
   }
   // The first pixel's center is at 0 there.
   const lens = checked({ fx, fy, cx: cx + 0.5, cy: cy + 0.5, width, height, ...distortionOf(fields) }, refuse);
@@ -211,8 +223,8 @@ function cameraOf(file: Fields, frame: unknown, where: string, size: ImageSize |
   };
   const number = (name: string, usual: number | undefined) => {
     const value = optional(name) ?? usual;
-    if (value === undefined) throw wrong(name, "a finite number", undefined);
-    return value;
+    if (value !== undefined) return value;
+    throw wrong(name, /^[wh]$/.test(name) ? "given, or width and height (--size WxH)" : "a finite number", undefined);
   };
   const focal = (name: string, angle: string, length: number) => {
     const opening = optional(angle);
