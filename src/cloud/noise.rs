@@ -14,7 +14,7 @@ use crate::cloud::neighbors::{Nearest, Neighbors};
 use crate::cloud::plane::off_plane;
 use crate::cloud::points::Points;
 use crate::cloud::quadric::off_quadric;
-use crate::cloud::sheets::{LOW, NEAR, PLACES, Sample, are_sheets, next_sheet, off_two_planes};
+use crate::cloud::sheets::{LOW, NEAR, PLACES, Sample, next_sheet, off_two_planes};
 use crate::cloud::statistics::{Statistics, mean_distance};
 use crate::cloud::surface;
 use crate::cloud::surface::SAMPLES;
@@ -22,7 +22,9 @@ use crate::cloud::surface::SAMPLES;
 /// From the low percentile to the standard deviation of normal noise.
 const TO_DEVIATION: f64 = 1.15;
 /// A cloud is noisy if its noise is more than this, in spacings. Clean scans have up to 0.065, and
-/// registered ones 0.13 and more.
+/// registered ones 0.13 and more. It is none if its rough places lie on two planes: if points are at most this share as far
+/// off them as off one quadric. Clean sheets have 0, scanned surfaces and all kinds of noise 0.34 and more, scans without
+/// noise that lie beside each other 0.13.
 const NOISY: f64 = 0.075;
 /// Rough surfaces, as of plants, grow by more than this from the small to the large surroundings, at the
 /// median place: by 1.32 to 1.58. Layers have 1.14 to 1.24, noise less.
@@ -279,7 +281,8 @@ impl Measured {
             let least = NOISY + CURVED / count as f64;
             (Surface::Layered, in_places, in_places > least)
         };
-        let is_clean = !is_noise || ratio == f64::INFINITY || are_sheets(&self.sheets)?;
+        let are_sheets = percentile(&self.sheets, LOW)?.is_some_and(|share| share <= NOISY);
+        let is_clean = !is_noise || ratio == f64::INFINITY || are_sheets;
         Ok((if is_clean { Surface::Clean } else { surface }, ratio))
     }
 

@@ -15,10 +15,6 @@ pub(crate) const NEAR: [usize; 2] = [16, 32];
 pub(crate) const PLACES: usize = 512;
 /// The percentile that counts where edges and corners are to be left out.
 pub(crate) const LOW: usize = 25;
-/// A cloud is sheets if its rough places lie on two planes: if points are at most this
-/// share as far off them as off one quadric. Clean sheets have 0, scanned surfaces and all kinds of noise 0.34 and
-/// more, scans without noise that lie beside each other 0.13.
-const SHEETS: f64 = 0.1;
 /// A point is on the next sheet if it lies from the first to the second number of spacings before or behind a place,
 /// and at most one local spacing beside its normal.
 const NEXT: [f64; 2] = [0.7, 30.0];
@@ -40,11 +36,6 @@ pub(crate) fn some(samples: &[Sample]) -> impl Iterator<Item = &Sample> {
     samples
         .iter()
         .step_by(samples.len().div_ceil(PLACES).max(1))
-}
-
-/// Whether points lie on two sheets, rather than around one surface, by the shares at rough places.
-pub(crate) fn are_sheets(shares: &[f64]) -> Result<bool, OutOfMemory> {
-    Ok(percentile(shares, LOW)?.is_some_and(|share| share <= SHEETS))
 }
 
 /// How far places lie off two parallel planes, which are on both sides of the widest gap along `normal`: the root of the

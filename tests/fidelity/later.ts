@@ -1,5 +1,4 @@
-// Unevenly sampled surfaces that were made after all rules had been chosen, and were not looked at before. Do not choose
-// anything on them.
+// Unevenly sampled surfaces that were made after the first rules had been chosen. Do not choose anything on them.
 import {
   BoxGeometry,
   CapsuleGeometry,
