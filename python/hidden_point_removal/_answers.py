@@ -64,7 +64,9 @@ class Visibility:
         return ~self.mask()
 
     def __array__(self, dtype: DTypeLike | None = None, copy: bool | None = None) -> NDArray[Any]:
-        """The indices: int64, unless another type is asked for."""
+        """The indices: int64, unless another type is asked for. Of bool, the mask."""
+        if dtype is not None and np.dtype(dtype) == bool:
+            return self.mask()
         return self.indices.astype(np.int64 if dtype is None else dtype)
 
     def __len__(self) -> int:
@@ -74,9 +76,9 @@ class Visibility:
         # pandas asks an index that it can call for the rows.
         return self.mask()
 
-    def __getitem__(self, number: int) -> int:
-        # So this is a sequence, which torch takes as an index.
-        return int(self.indices[number])
+    def __getitem__(self, number: Any) -> Any:
+        # So this is a sequence, which torch takes as an index: an int, or a list for a slice.
+        return self.indices[number].tolist()
 
     def __getstate__(self) -> dict[str, Any]:
         return {**self.__dict__, "_cloud": None}

@@ -109,7 +109,7 @@ def place(given: Any, name: str) -> tuple[float, float, float]:
     read = array(_by_name(given, name, code), name, "fiuO", words, code)
     try:
         x, y, z = (float(number) for number in (read.ravel() if read.shape in ((3, 1), (1, 3)) else read))
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         x = y = z = math.nan
     if not all(map(math.isfinite, (x, y, z))):
         several = "; several viewpoints are for visible_from_each and visible_from_any" if read.ndim > 1 and name == "viewpoint" else ""
@@ -193,13 +193,16 @@ def camera(given: Any, name: str) -> tuple[bool, list[float], bool, str, list[fl
     elif len(pose) == 3:
         pose = np.vstack([pose, [0.0, 0.0, 0.0, 1.0]])
     convention = found.get("convention", "opencv")
-    if convention not in ("opencv", "opengl"):
-        raise wrong('convention must be "opencv" or "opengl"')
-    usual = {"near": 0.0, "far": math.inf}
-    lens = [_number(found.get(entry, usual.get(entry, math.nan if entry in LENS[:4] else 0.0)), entry, wrong) for entry in LENS]
+    if not isinstance(convention, str) or convention not in ("opencv", "opengl"):
+        raise wrong(f'convention must be "opencv" or "opengl", got {convention!r:.60}')
+    found = {"near": 0.0, "far": math.inf, **found}
+    missing = [entry for entry in LENS if entry not in found]
+    if missing:
+        raise wrong(f"{missing[0]} is missing{' (or K)' if missing[0] in LENS[:4] else ''}")
+    lens = [_number(found[entry], entry, wrong) for entry in LENS]
     distortion = found.get("distortion")
     if distortion is not None:
-        distortion = _matrix(distortion, wrong, (), "distortion must be a list of numbers").tolist()
+        distortion = _matrix(distortion, wrong, (), "distortion must be a list of numbers").ravel().tolist()
     model = found.get("model", "OPENCV")
     return poses[0] == "world_to_camera", pose.T.ravel().tolist(), convention == "opengl", str(model), distortion, lens
 
@@ -211,7 +214,8 @@ def _matrix(given: Any, wrong: Any, shapes: tuple[tuple[int, ...], ...], words: 
     except HprError as problem:
         # What torch says of its tensors is passed on.
         raise wrong(f"{words}: {problem}" if problem.__cause__ else words) from None
-    if read.shape not in shapes if shapes else read.ndim != 1:
+    # OpenCV's distortion is a row or a column.
+    if read.shape not in shapes if shapes else read.ndim == 0 or max(read.shape) != read.size:
         raise wrong(f"{words}, got the shape {read.shape}")
     return read
 
@@ -221,7 +225,7 @@ def _number(given: Any, entry: str, wrong: Any) -> float:
         raise wrong(f"{entry} must be a number, got {given!r:.60}")
     try:
         return float(given)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise wrong(f"{entry} must be a number, got {given!r:.60}") from None
 
 
@@ -244,6 +248,9 @@ def indices(given: Any, name: str, length: int) -> NDArray[np.uint32]:
         if read.shape != (length,):
             raise refusal("option", f"{name} is a mask of the shape {read.shape}, but there are {length} points")
         read = np.flatnonzero(read)
+    elif read.shape == (length,) and length > 2 and 0 <= read.min() and read.max() <= 1:
+        # As indices, they would name the points 0 and 1 alone.
+        raise refusal("option", f"{name} must be indices or truth values, got a mask of ones and zeros: make it bool")
     if read.ndim != 1 or (read.size and (read.min() < 0 or read.max() >= 2**32)):
         raise refusal("option", f"{name} must be integers from 0 to {2**32 - 1}, got {_shown(given, read)}")
     return read.astype(np.uint32)

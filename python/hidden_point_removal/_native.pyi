@@ -123,7 +123,7 @@ class PointCloud:
         self, viewpoint: ArrayLike, width: int, height: int, up: ArrayLike = (0, 0, 1), **options: Unpack[Options]
     ) -> Panorama:
         """The surface of the visible points as an equirectangular image of ranges, and how much sky is left."""
-    def auto_radius(self, viewpoint: ArrayLike, rule: Rule = "auto") -> tuple[float, float, int]:
+    def auto_radius(self, viewpoint: ArrayLike, rule: Rule | None = "auto") -> tuple[float, float, int]:
         """(radius, exponent, evaluations) as the rule chooses them."""
     def reconstruct(
         self, viewpoint: ArrayLike, max_edge: float | None = None, **options: Unpack[Options]
@@ -133,8 +133,8 @@ class PointCloud:
         self,
         lights: Iterable[ArrayLike],
         triangles: ArrayLike | None = None,
-        smoothing: int = 1,
-        ambient: float = 0.0,
+        smoothing: int | None = 1,
+        ambient: float | None = 0.0,
         **options: Unpack[Options],
     ) -> NDArray[np.float32]:
         """The brightness of each index, from 0 to 1."""

@@ -61,7 +61,7 @@ def transfer(
         word_number("sampling", sampling, ("nearest", "bilinear")),
     ]
     if not isinstance(cloud, PointCloud):
-        raise refusal("option", f"an argument must not be {cloud!r:.60}")
+        raise refusal("option", f"cloud must be a PointCloud, got {cloud!r:.60}")
     if options.get("scores") is not None and options["scores"] is not False:
         raise refusal("option", "scores cannot be combined with transfer")
     options.pop("scores", None)

@@ -223,14 +223,16 @@ type Reduced<'py> = (
 impl PointCloud {
     #[new]
     #[pyo3(
-        signature = (positions, non_finite=String::from("error")),
+        signature = (positions, non_finite=None),
         text_signature = "(positions, non_finite='error')"
     )]
     fn new(
         py: Python<'_>,
         positions: &Bound<'_, PyAny>,
-        #[pyo3(from_py_with = options::given)] non_finite: String,
+        non_finite: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
+        let wanted = ("non_finite", r#""error" or "skip""#);
+        let non_finite: String = options::named(non_finite, wanted, "error".into())?;
         let (choice, non_finite) = match non_finite.as_str() {
             "error" => (NonFinite::Error, "error"),
             "skip" => (NonFinite::Skip, "skip"),

@@ -138,10 +138,13 @@ impl Horizon {
 )]
 pub fn merge_visible<'py>(
     py: Python<'py>,
-    #[pyo3(from_py_with = options::given)] parts: Vec<(Bound<'py, PyAny>, Bound<'py, PyAny>)>,
+    parts: &Bound<'py, PyAny>,
     viewpoint: &Bound<'py, PyAny>,
     options: Option<&Bound<'py, PyDict>>,
 ) -> PyResult<Bound<'py, PyArray1<u64>>> {
+    let wanted = ("parts", "a list of (positions, ids)");
+    let parts: Vec<(Bound<'py, PyAny>, Bound<'py, PyAny>)> =
+        options::named(Some(parts), wanted, Vec::new())?;
     let viewpoint = place(viewpoint, "viewpoint")?;
     let options = options::read_without_cloud(py, options)?;
     let mut positions = Vec::with_capacity(parts.len());

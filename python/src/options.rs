@@ -169,6 +169,22 @@ pub fn given<'py, T: for<'a> FromPyObject<'a, 'py>>(value: &Bound<'py, PyAny>) -
     value.extract().map_err(refused)
 }
 
+/// Reads an argument that is a number or a word, by its name. `None` counts as left out; a truth value is neither.
+pub fn named<'py, T: for<'a> FromPyObject<'a, 'py>>(
+    value: Option<&Bound<'py, PyAny>>,
+    (name, wanted): (&str, &str),
+    usual: T,
+) -> PyResult<T> {
+    let Some(value) = value else {
+        return Ok(usual);
+    };
+    let read = (!value.is_instance_of::<PyBool>()).then(|| value.extract().ok());
+    read.flatten().ok_or_else(|| {
+        let got = shown(value);
+        option(value.py(), format!("{name} must be {wanted}, got {got}"))
+    })
+}
+
 /// Reads a distance and a box into the options. Returns the mask.
 fn within(
     py: Python<'_>,

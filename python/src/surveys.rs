@@ -177,16 +177,18 @@ impl PointCloud {
     ///
     /// Returns (radius, exponent, evaluations): two float, and how many hulls the choice took.
     #[pyo3(
-        signature = (viewpoint, rule=String::from("auto")),
+        signature = (viewpoint, rule=None),
         text_signature = "($self, viewpoint, rule='auto')"
     )]
     fn auto_radius(
         &self,
         py: Python<'_>,
         viewpoint: &Bound<'_, PyAny>,
-        #[pyo3(from_py_with = options::given)] rule: String,
+        rule: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<(f64, f64, u32)> {
         let viewpoint = place(viewpoint, "viewpoint")?;
+        let rule: String =
+            options::named(rule, ("rule", r#""auto" or "opposite""#), "auto".into())?;
         let mut options = Options::default();
         if !options.set("radius", Given::Word(&rule)) {
             let message = format!(r#"rule must be "auto" or "opposite", got {rule:?}"#);

@@ -170,11 +170,14 @@ impl PointCloud {
     fn reconstruct<'py>(
         slf: &Bound<'py, Self>,
         viewpoint: &Bound<'_, PyAny>,
-        #[pyo3(from_py_with = options::given)] max_edge: Option<f64>,
+        max_edge: Option<&Bound<'_, PyAny>>,
         options: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyArray2<u32>>)> {
         let py = slf.py();
         let viewpoint = place(viewpoint, "viewpoint")?;
+        let max_edge = max_edge
+            .map(|edge| options::named(Some(edge), ("max_edge", "a number"), 0.0))
+            .transpose()?;
         let Asked { options, how } = slf.get().read(py, options)?;
         let made = slf.get().ask(py, how, |cloud| {
             cloud.reconstruct(viewpoint, &options, max_edge)
@@ -196,14 +199,14 @@ impl PointCloud {
     /// ambient: float, from 0 to 1.
     /// Options: those of `visible_from`. Not with looks.
     /// Returns an array of float32, one brightness from 0 to 1 for each index.
-    #[pyo3(signature = (lights, triangles=None, smoothing=1, ambient=0.0, **options), text_signature = None)]
+    #[pyo3(signature = (lights, triangles=None, smoothing=None, ambient=None, **options), text_signature = None)]
     fn illuminate<'py>(
         &self,
         py: Python<'py>,
         lights: &Bound<'_, PyAny>,
         triangles: Option<&Bound<'_, PyAny>>,
-        #[pyo3(from_py_with = options::given)] smoothing: usize,
-        #[pyo3(from_py_with = options::given)] ambient: f64,
+        smoothing: Option<&Bound<'_, PyAny>>,
+        ambient: Option<&Bound<'_, PyAny>>,
         options: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Bound<'py, PyArray1<f32>>> {
         let lights = arguments::places(lights, "lights")?;
@@ -215,8 +218,8 @@ impl PointCloud {
             .transpose()?;
         let lighting = Lighting {
             triangles: corners.as_deref(),
-            smoothing,
-            ambient,
+            smoothing: options::named(smoothing, ("smoothing", "an integer of at least 0"), 1)?,
+            ambient: options::named(ambient, ("ambient", "a number"), 0.0)?,
         };
         let brightness = self.ask(py, how, |cloud| {
             cloud.illuminate(&lights, &options, &lighting)

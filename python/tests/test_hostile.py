@@ -115,19 +115,36 @@ def test_a_forked_process_answers():
     assert child.exitcode == 0
 
 
-@pytest.mark.parametrize("ask", [
-    lambda cloud: PointCloud([[0.0, 0, 1]], non_finite=5),
-    lambda cloud: cloud.auto_radius(VIEWPOINT, 5),
-    lambda cloud: cloud.reconstruct(VIEWPOINT, max_edge="wide"),
-    lambda cloud: cloud.illuminate([VIEWPOINT], smoothing=-1),
-    lambda cloud: cloud.illuminate([VIEWPOINT], ambient="dim"),
-    lambda cloud: cloud.visible_from_camera({5: 1}),
-    lambda cloud: cloud.visible_from(VIEWPOINT, within={5: 1}),
-    lambda cloud: cloud.visible_from(VIEWPOINT, inversion={5: 1}),
-    lambda cloud: merge_visible(5, VIEWPOINT, radius=9),
-    lambda cloud: transfer(ball(5), [], []),
+@pytest.mark.parametrize(("says", "ask"), [
+    (r"non_finite must be .*, got 5", lambda cloud: PointCloud([[0.0, 0, 1]], non_finite=5)),
+    (r"rule must be .*, got 5", lambda cloud: cloud.auto_radius(VIEWPOINT, 5)),
+    (r"max_edge must be .*, got 'wide'", lambda cloud: cloud.reconstruct(VIEWPOINT, max_edge="wide")),
+    (r"max_edge must be .*, got True", lambda cloud: cloud.reconstruct(VIEWPOINT, max_edge=True)),
+    (r"smoothing must be .*, got -1", lambda cloud: cloud.illuminate([VIEWPOINT], smoothing=-1)),
+    (r"ambient must be .*, got 'dim'", lambda cloud: cloud.illuminate([VIEWPOINT], ambient="dim")),
+    (r"parts must be .*, got 5", lambda cloud: merge_visible(5, VIEWPOINT, radius=9)),
+    (r"parts must be .*, got None", lambda cloud: merge_visible(None, VIEWPOINT, radius=9)),
+    (r"cloud must be .*, got array", lambda cloud: transfer(ball(5), [], [])),
+    (r"a mask of ones and zeros", lambda cloud: cloud.remove(cloud.visible_from(VIEWPOINT).mask().astype(int))),
+    (r"a mask of ones and zeros", lambda cloud: cloud.calibrate([{"viewpoint": VIEWPOINT, "indices": [0, 1] * 25}])),
+    ("must not be 5", lambda cloud: cloud.visible_from_camera({5: 1})),
+    ("must not be 5", lambda cloud: cloud.visible_from(VIEWPOINT, within={5: 1})),
+    ("must not be 5", lambda cloud: cloud.visible_from(VIEWPOINT, inversion={5: 1})),
 ])
-def test_an_argument_of_another_type_is_refused(ask):
-    with pytest.raises(HprError, match="an argument must not be") as refused:
+def test_an_argument_of_another_type_is_refused(says, ask):
+    with pytest.raises(HprError, match=says) as refused:
         ask(PointCloud(ball(50)))
     assert refused.value.code == "option"
+
+
+def test_none_counts_as_left_out():
+    cloud = PointCloud(ball(50), None)
+    assert cloud.auto_radius(VIEWPOINT, None) == cloud.auto_radius(VIEWPOINT)
+    assert np.array_equal(cloud.illuminate([VIEWPOINT], smoothing=None, ambient=None), cloud.illuminate([VIEWPOINT]))
+    assert np.array_equal(cloud.reconstruct(VIEWPOINT, None)[1], cloud.reconstruct(VIEWPOINT)[1])
+
+
+def test_an_answer_is_a_sequence_and_a_mask():
+    visible = PointCloud(ball(50)).visible_from(VIEWPOINT)
+    assert (visible[-1], visible[1:3]) == (visible.indices[-1], visible.indices[1:3].tolist())
+    assert np.array_equal(np.asarray(visible, bool), visible.mask())

@@ -75,6 +75,7 @@ ARGUMENTS = {
     "pose (3, 4)": ("real", lambda v: seen_by({"camera_to_world": v, **LENS}), POSE[:3]),
     "K": ("real", lambda v: seen_by({"camera_to_world": POSE, "K": v, "width": 40, "height": 30}), [[50, 0, 20], [0, 50, 15], [0, 0, 1]]),
     "distortion": ("real", lambda v: seen_by({**CAMERA, "distortion": v}), [1, 0, 0, 0]),
+    "distortion (1, 4)": ("real", lambda v: seen_by({**CAMERA, "distortion": v}), [[1, 0, 0, 0]]),
     "normals": ("real", lambda v: orient_normals(v, cloud().seen_by([CAMERA])), WHOLE),
     "indices": ("index", removed, [1, 2, 7, 39]),
     "station": ("index", lambda v: cloud().calibrate([{"viewpoint": EYE, "indices": v}]).recall, [1, 2, 7, 39]),
@@ -181,7 +182,7 @@ VALUES = {
 QUESTIONS = {name: own for name, own in vars(PointCloud).items() if not name.startswith("_") and callable(own)}
 WRONG = [
     object(), "text", b"bytes", 5, np.array(5), np.array("text"), [], {}, {5: 1}, {"x": [1, 2], "y": [1], "z": 3}, {1, 2}, [[1], [1, 2]], [None], [object()],
-    Tensor(np.array(["a"])), Tensor(WHOLE, "hint"), np.zeros((2, 2, 2)), np.array([None, "a"]), np.zeros(0), iter([EYE]), range(3), -1, float("nan"), 10**30,
+    Tensor(np.array(["a"])), Tensor(WHOLE, "hint"), np.zeros((2, 2, 2)), np.array([None, "a"]), np.zeros(0), iter([EYE]), range(3), -1, float("nan"), 10**30, [10**400] * 3,
 ]  # fmt: skip
 
 
