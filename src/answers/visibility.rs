@@ -136,12 +136,6 @@ impl Visibility {
         &self.scores
     }
 
-    /// The scores as an owned list; see [`Visibility::scores`].
-    #[must_use]
-    pub fn into_scores(self) -> Vec<f32> {
-        self.scores
-    }
-
     /// Whether this is the exact answer to the question. It is false only for some clouds of a
     /// [`PointCloudNd`](crate::PointCloudNd).
     #[must_use]

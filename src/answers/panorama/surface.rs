@@ -232,22 +232,12 @@ fn normal(a: DVec3, b: DVec3) -> DVec3 {
     let [a, b] = [a, b].map(|v| v * power_of_two_below(1.0 / v.abs().max_element()));
     let difference = |i: usize, j: usize| {
         let (one, other) = (a[i] * b[j], a[j] * b[i]);
-        let lost = rounded_off(a[i], b[j], one) - rounded_off(a[j], b[i], other);
+        // What each product lost in rounding.
+        let lost = libm::fma(a[i], b[j], -one) - libm::fma(a[j], b[i], -other);
         (one - other) + lost
     };
     let normal = DVec3::new(difference(1, 2), difference(2, 0), difference(0, 1));
     // It may be so short that its square is 0.
     let normal = normal * power_of_two_below(1.0 / normal.abs().max_element());
     normal / square_root(normal.length_squared())
-}
-
-/// x·y minus its rounded product (Dekker 1971).
-fn rounded_off(x: f64, y: f64, product: f64) -> f64 {
-    let halves = |x: f64| {
-        let high = x * 134_217_729.0;
-        let high = high - (high - x);
-        (high, x - high)
-    };
-    let ((x, low_x), (y, low_y)) = (halves(x), halves(y));
-    ((x * y - product) + x * low_y + low_x * y) + low_x * low_y
 }
