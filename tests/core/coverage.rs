@@ -1,6 +1,6 @@
 //! Many viewpoints: counts, and the greedy choice against every choice.
 
-use hidden_point_removal::{Options, Placing, PointCloud};
+use hidden_point_removal::{Error, Options, Placing, PointCloud, ring_of_viewpoints};
 
 use crate::common::refused;
 use crate::common::rng::Rng;
@@ -66,5 +66,22 @@ fn questions_that_make_no_sense_are_refused() {
         (placing.count, placing.share, placing.weights) = (count, share, weights);
         let found = cloud.place_viewpoints(&candidates, &usual, &placing);
         refused("option", "", found);
+    }
+}
+
+#[test]
+fn of_several_refusals_the_first_one_is_reported() {
+    let points = shapes::bumpy(&mut Rng::new(2), 800);
+    let cloud = PointCloud::new(&points).unwrap();
+    let mut viewpoints = ring_of_viewpoints([0.0, 0.0, 4.0], [0.0; 3], 40, 0.2).unwrap();
+    for bad in 11..40 {
+        viewpoints[bad] = [bad as f64, f64::NAN, 0.0];
+    }
+    for _ in 0..20 {
+        let refused = cloud.coverage(&viewpoints, &Options::default().with_threads(8));
+        let Err(Error::Viewpoint { viewpoint }) = refused else {
+            panic!("{refused:?}");
+        };
+        assert_eq!(viewpoint[0], 11.0);
     }
 }

@@ -3,6 +3,7 @@
 use hidden_point_removal::{Options, PointCloud, Radius, Visibility};
 
 use crate::common::rng::Rng;
+use crate::common::scanner::{Scanner, normal};
 use crate::test;
 
 type Place = [f64; 3];
@@ -13,11 +14,6 @@ fn looks() -> Options {
 
 fn thick(thickness: f64) -> Options {
     looks().with_thickness(thickness)
-}
-
-/// A normal number, as a sum of uniform ones.
-fn normal(rng: &mut Rng) -> f64 {
-    (0..12).fold(-6.0, |sum, _| sum + rng.unit())
 }
 
 /// A sphere of radius 1, evenly sampled, with noise along its normals.
@@ -144,30 +140,18 @@ fn layers_of_registered_scans_are_one_surface() {
     assert!(lost < 0.2 * lost_before && shown < 3.0, "{lost} {shown}");
 }
 
-/// One scan: what a scanner in a room sees, at even angles.
+/// One scan of a hall, without noise.
 fn scan() -> Vec<Place> {
-    let mut points = Vec::new();
-    for row in 0..90 {
-        for column in 0..360 {
-            let [tilt, turn] = [row as f64 - 45.0, column as f64].map(f64::to_radians);
-            let ray = [tilt.cos() * turn.cos(), tilt.cos() * turn.sin(), tilt.sin()];
-            // A hall with pillars.
-            let mut range = f64::INFINITY;
-            for (axis, half) in [(0, 9.0), (1, 4.0), (2, 1.6)] {
-                range = range.min(half / f64::abs(ray[axis]));
-            }
-            for pillar in [[3.0, 1.0], [-5.0, -2.0], [6.5, -2.5]] {
-                let along = (ray[0] * pillar[0] + ray[1] * pillar[1]) / tilt.cos();
-                let beside = (ray[0] * pillar[1] - ray[1] * pillar[0]) / tilt.cos();
-                if along > 0.0 && beside.abs() < 0.4 {
-                    let front = along - (0.16 - beside * beside).sqrt();
-                    range = range.min(front / tilt.cos());
-                }
-            }
-            points.push(ray.map(|x| x * range));
-        }
-    }
-    points
+    let scanner = Scanner {
+        rings: 90,
+        columns: 360,
+        range_noise: 0.0,
+        angle_noise: 0.0,
+        beam: 0.0,
+        registration: [0.0; 2],
+    };
+    let points = scanner.scan([0.0; 3], &mut Rng::new(1));
+    points.iter().map(|point| point.place).collect()
 }
 
 #[test]
