@@ -134,24 +134,23 @@ impl Certifier {
     }
 
     fn farthest(&self, key: impl Fn(usize) -> f64) -> usize {
-        (0..self.q.len())
-            .max_by(|&i, &j| key(i).total_cmp(&key(j)))
-            .expect("points")
+        let mut best = (f64::NEG_INFINITY, 0);
+        for i in 0..self.q.len() {
+            let key = key(i);
+            if key > best.0 {
+                best = (key, i);
+            }
+        }
+        best.1
     }
 
     /// A point beyond the plane of the face: the farthest by `f64`, or any point that
     /// the exact sign finds.
     fn beyond(&self, face: [usize; 3]) -> Option<usize> {
         let m = self.dual(face);
-        let mut best = (f64::NEG_INFINITY, 0);
-        for (i, &x) in self.q.iter().enumerate() {
-            let height = dot(m, x);
-            if height > best.0 {
-                best = (height, i);
-            }
-        }
-        if self.side(face, best.1) < 0.0 {
-            return Some(best.1);
+        let best = self.farthest(|i| dot(m, self.q[i]));
+        if self.side(face, best) < 0.0 {
+            return Some(best);
         }
         (0..self.q.len()).find(|&x| self.side(face, x) < 0.0)
     }
