@@ -22,6 +22,10 @@ use crate::view::resolved::check_viewpoint;
 /// on four views of a cow with noise of two spacings.
 const DEVIATIONS: f64 = 10.0;
 
+/// How many times the c of the loosest look a map takes. Champions are farther from each other than samples, so that their
+/// triangles hide less. With 2, maps hid up to 4 % of what looks show in towns with sparse walls.
+const TIGHTER: f64 = 1.4;
+
 /// The place, among the three looks, of look `number` of `count`.
 fn place(count: usize, number: usize) -> usize {
     if count == 2 { 2 * number } else { number }
@@ -65,7 +69,7 @@ pub(crate) fn look_of_map(
     let farthest = cloud.blocks.farthest_distance(points, viewpoint)?;
     let projection = Projection::Perspective(viewpoint);
     let tuning = Tuning::of(projection, cloud, survey, thickness, farthest)?;
-    let scale = apart * tuning.scales[2];
+    let scale = TIGHTER * apart * tuning.scales[2];
     let kernel = tuning.kernel(scale, farthest);
     let mut behind = tuning.thickness;
     if survey.is_some() && thickness.is_none() {

@@ -169,17 +169,11 @@ impl Grid {
         cells: &mut Vec<Cell>,
     ) -> Result<(), OutOfMemory> {
         refill(cells, self.start(6), EMPTY)?;
-        let from = DVec3::from_array(viewpoint);
-        let far = |sphere: &Sphere| (DVec3::from_array(sphere.center) - from).length_squared();
-        let middle = blocks.iter().map(far).sum::<f64>() / blocks.len() as f64;
-        // The nearer half comes first, so that most points of the other one are not nearer than a champion.
-        for is_near in [true, false] {
-            for (number, sphere) in blocks.iter().enumerate() {
-                if (far(sphere) < middle) == is_near && cone.meets(sphere, viewpoint) {
-                    for (side, _) in self.used() {
-                        if may_be_on(side, sphere, viewpoint) {
-                            self.choose_on(side, points, number, viewpoint, cells);
-                        }
+        for (number, sphere) in blocks.iter().enumerate() {
+            if cone.meets(sphere, viewpoint) {
+                for (side, _) in self.used() {
+                    if may_be_on(side, sphere, viewpoint) {
+                        self.choose_on(side, points, number, viewpoint, cells);
                     }
                 }
             }
