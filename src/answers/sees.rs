@@ -5,6 +5,7 @@ use glam::DVec3;
 
 use crate::answers::visibility::Visibility;
 use crate::base::allocation::with_capacity;
+use crate::base::beat;
 use crate::base::error::Error;
 use crate::base::real::square_root;
 use crate::cloud::point_cloud::{NonFinite, PointCloud};
@@ -73,6 +74,7 @@ impl PointCloud {
         let mut view = OpenView::new(&part, viewpoint, options)?;
         let mut seen: Vec<u8> = with_capacity(positions.len())?;
         for place in positions.iter() {
+            beat::step();
             let takes_part = is_finite(place) && region.is_none_or(|region| region.holds(place));
             seen.push(u8::from(takes_part && view.sees(place)?));
         }
