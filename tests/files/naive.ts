@@ -59,7 +59,8 @@ function colmap(content: Uint8Array): number[] {
     found.push(...[8, 16, 24].map((place) => number(viewOf(content), at + place, "f8", true)));
     at += 51 + 8 * number(viewOf(content), at + 43, "u8", true);
   }
-  return at === content.length ? found : fail();
+  // Zeros and blanks may follow.
+  return at <= content.length && /^[\0\t-\r ]*$/.test(latin(content.subarray(at))) ? found : fail();
 }
 
 /** Scans that are not turned. */
@@ -73,7 +74,8 @@ function ptx(text: string): number[] | undefined {
     const move = (matrix[3] ?? fail()).map(real);
     for (let left = whole(columns?.[0]) * whole(rows?.[0]); left > 0; left--) {
       const place = [0, 1, 2].map((axis) => real(lines[0]?.[axis]));
-      const isNone = place.every((x) => x === 0);
+      // A place that is not three numbers cannot be turned.
+      const isNone = place.every((x) => x === 0) || place.some((x) => Number.isNaN(x));
       found.push(...place.map((x, axis) => (isNone ? NaN : x + move[axis]!)));
       lines.shift();
     }
@@ -279,7 +281,13 @@ function unpacked(data: Uint8Array): Uint8Array {
   return Uint8Array.from(out);
 }
 
-const AXES = [/^(x|easting|east)$/, /^(y|northing|north)$/, /^(z|height)$/];
+/** The names of x, y and z, the best first: the exact ones, words, the letters of surveyors, and all of them mixed. */
+const AXES = [
+  [/^x$/, /^y$/, /^z$/],
+  [/^(x|easting|east)$/, /^(y|northing|north)$/, /^(z|height)$/],
+  [/^e$/, /^n$/, /^h$/],
+  [/^(x|easting|east|e)$/, /^(y|northing|north|n)$/, /^(z|height|h)$/],
+];
 const UNITS = ["m", "mm", "cm", "dm", "km", "um", "ft", "in", "yd"];
 
 interface Head {
@@ -360,15 +368,12 @@ function namesOf(line: string, by: RegExp): string[] {
   );
 }
 
-/** The columns of x, y and z, if there are names for all three. The names x, y and z come before all others. */
+/** The columns of x, y and z, if there are names for all three. */
 function placesIn(names: readonly string[]): number[] | undefined {
-  const placesOf = (isAxis: (name: string) => boolean) => names.flatMap((name, i) => (isAxis(name) ? [i] : []));
-  const exact = ["x", "y", "z"].map((axis) => placesOf((name) => name === axis));
-  const found = exact.some(({ length }) => length === 0)
-    ? AXES.map((axis) => placesOf((name) => axis.test(name)))
-    : exact;
-  if (found.some(({ length }) => length === 0)) return undefined;
-  return found.every(({ length }) => length === 1) ? found.flat() : fail();
+  const found = AXES.map((axes) => axes.map((axis) => names.flatMap((name, i) => (axis.test(name) ? [i] : [])))).find(
+    (places) => places.every(({ length }) => length > 0),
+  );
+  return found?.every(({ length }) => length === 1) === false ? fail() : found?.flat();
 }
 
 /** The columns of x, y and z that a comment names. */

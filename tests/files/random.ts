@@ -281,7 +281,7 @@ function pcdFile(random: Random, rows: readonly number[][]): ValidFile {
 function tableFile(random: Random, rows: readonly number[][]): ValidFile {
   const [separator, kind] = random.of([[" ", "spaces"], ["\t", "tabs"], [",", "commas"], [";", "semicolons"]] as const); // prettier-ignore
   const names = random.of(["none", "line", "comment"] as const);
-  const axes: readonly string[] = random.of([["x", "y", "z"], ["Easting", "Northing", "Height"], ["x_m", "y_m", "z_m"]] as const); // prettier-ignore
+  const axes: readonly string[] = random.of([["x", "y", "z"], ["Easting", "Northing", "Height"], ["E", "N", "H"], ["E", "N", "Z"], ["x_m", "y_m", "z_m"]] as const); // prettier-ignore
   const more = extras(random).map(({ name }) => name);
   const columns = names === "none" ? [...axes, ...more] : random.shuffled([...axes, ...more]);
   const decimalComma = separator !== "," && random.below(4) === 0;

@@ -87,6 +87,7 @@ describe("colors and columns arrive", () => {
     expect([...positions.slice(0, 3)]).toEqual([5155487.5, 694386.2, 381]);
     expect(notes!.join()).toMatch(/not read, since they are no single numbers: column 5/);
     expect([...(await reading("E,N,Z\n1,2,3\n")).positions]).toEqual([1, 2, 3]);
+    expect([...(await reading("E,N,H\n1,2,3\n")).positions]).toEqual([1, 2, 3]);
     expect([...(await reading("Point,N,E,Z\n7,2,1,3\n")).positions]).toEqual([1, 2, 3]);
     const veloview = "intensity,Points_m_XYZ:0,Points_m_XYZ:1,Points_m_XYZ:2\n9,1,2,3\n";
     expect([...(await reading(veloview)).positions]).toEqual([1, 2, 3]);
@@ -212,6 +213,7 @@ describe("rows of numbers with hardly a header", () => {
   const doubles = Float64Array.of(1, 2, 3, 4, 5, 6);
   const FILES: [name: string, content: Uint8Array | string, column?: [name: string, values: number[]]][] = [
     ["0000.bin", bytes(four), ["intensity", [0.5, 0.25]]],
+    ["gaps.bin", bytes(Float32Array.of(1, 2, 3, NaN, 4, 5, 6, 0)), ["intensity", [NaN, 0]]],
     ["top.pcd.bin", bytes(Float32Array.of(1, 2, 3, 0.5, 7, 4, 5, 6, 0.25, 8)), ["ring", [7, 8]]],
     ["a.npy", npy("'<f8'", "2, 3", doubles)],
     ["b.npy", npy("'<f4'", "1, 2, 4", four), ["column 4", [0.5, 0.25]]],

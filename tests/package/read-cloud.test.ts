@@ -36,6 +36,12 @@ const setCount = (count: number) => (view: DataView) => {
 };
 
 describe("the formats", () => {
+  it("reads bytes, also those of Node's Buffer and of a part of an array", async () => {
+    const bytes = Buffer.from(table(" "));
+    const part = new Uint8Array(Buffer.concat([Buffer.from("9 9 9\n"), bytes])).subarray(6);
+    for (const given of [bytes, part]) expect(await readCloud(given)).toEqual(await readCloud(buffer(bytes)));
+  });
+
   it("reads files that are packed with gzip, and refuses a damaged packing", async () => {
     const plain = await readCloud(buffer(table(" ")));
     const packed = gzipSync(table(" "));

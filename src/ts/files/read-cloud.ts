@@ -56,7 +56,7 @@ export interface CloudData {
  * Reads LAS, LAZ, COPC, E57, PTX, PLY, PCD, tables (XYZ, TXT, CSV), OBJ and glTF. The first bytes show the format; if they
  * do not, the ending of the name does. Points keep the order of the file. A coordinate that a file does not have is NaN.
  *
- * @param source a Blob, an ArrayBuffer, a URL, or a string: a path in Node, an address in browsers
+ * @param source a Blob, an ArrayBuffer, a Uint8Array, a URL, or a string: a path in Node, an address in browsers
  * @throws HprError (as a rejection) `load` if the file cannot be read or contradicts itself; the message names the
  * line or the fault. `option` for a wrong source or option.
  */

@@ -6,7 +6,7 @@ import type { Reading } from "../formats/cloud-file.js";
 import { blobSource, bytesSource, type Source, wholeFile } from "../formats/source.js";
 
 /** A file, or where it is: an address, or a path in Node. */
-export type FileSource = Blob | ArrayBuffer | URL | string;
+export type FileSource = Blob | ArrayBuffer | Uint8Array<ArrayBuffer> | URL | string;
 
 /** A file, its name, and how other files of its folder are read. */
 export interface NamedSource {
@@ -37,8 +37,10 @@ export async function sourceOf(given: unknown, signal: AbortSignal | undefined):
   if (tag === "Blob" || tag === "File") {
     return { source: blobSource(given as Blob), name: (given as Partial<File>).name ?? "the file", close: nothing };
   }
-  if (tag === "ArrayBuffer") {
-    return { source: bytesSource(new Uint8Array(given as ArrayBuffer)), name: "the file", close: nothing };
+  // Node's Buffer is a Uint8Array.
+  if (tag === "ArrayBuffer" || tag === "Uint8Array") {
+    const bytes = tag === "Uint8Array" ? (given as Uint8Array<ArrayBuffer>) : new Uint8Array(given as ArrayBuffer);
+    return { source: bytesSource(bytes), name: "the file", close: nothing };
   }
   if (given instanceof URL) {
     return given.protocol === "file:" ? openFile(given) : fetched(given, signal);
@@ -46,7 +48,7 @@ export async function sourceOf(given: unknown, signal: AbortSignal | undefined):
   if (typeof given !== "string") {
     throw new HprError(
       "option",
-      `the source must be a Blob, an ArrayBuffer, a URL or a string, got ${describe(given)}`,
+      `the source must be a Blob, an ArrayBuffer, a Uint8Array, a URL or a string, got ${describe(given)}`,
     );
   }
   const isAddress = /^(https?|data|blob):/i.test(given);

@@ -76,7 +76,7 @@ function scan(start: Uint8Array, size: number, name: string): Layout {
   const floats = Array.from({ length: start.length >> 2 }, (_, i) => Math.abs(view.getFloat32(4 * i, true)));
   const each = [/\.pcd\.bin$/i.test(name) ? 5 : 4, 5].find((numbers) => size % (4 * numbers) === 0);
   // Other bytes make numbers of any size.
-  if (each === undefined || size === 0 || !floats.every((value) => value === 0 || (value > 1e-9 && value < 1e9))) {
+  if (each === undefined || size === 0 || floats.some((value) => value !== 0 && (value <= 1e-9 || value >= 1e9))) {
     throw new FormatProblem("it does not hold 4 or 5 floats for each point, as scans of KITTI and nuScenes do");
   }
   const names = ["x", "y", "z", "intensity", "ring"].slice(0, each);

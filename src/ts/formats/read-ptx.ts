@@ -45,7 +45,7 @@ export async function readPtx(reading: Reading): Promise<CloudFile> {
       if (builder === undefined) {
         width = wordsOf(line).length;
         if (![3, 4, 7].includes(width)) {
-          throw lineProblem(number + i, `has ${width} values, and a point has 4 or 7`, line);
+          throw lineProblem(number + i, `has ${width} values, and a point has 3, 4 or 7`, line);
         }
         builder = new CloudBuilder("float64", columnsOf(width), reading, null);
       }

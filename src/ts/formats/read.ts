@@ -53,7 +53,7 @@ function formatOf(data: Uint8Array, name: string): Format {
   const foreign = foreignFile(start);
   if (foreign !== undefined) throw new FormatProblem(foreign);
   if (ending === "ptx" || /^\d+\s*[\r\n]\s*\d+\s*[\r\n]/.test(start)) return "ptx";
-  if (/^(ply|pcd|las|laz|gltf|glb|e57)$/.test(ending)) {
+  if (/^(ply|pcd|las|laz|gltf|glb|e57|npy)$/.test(ending)) {
     const format = { gltf: "glTF", glb: "GLB" }[ending] ?? ending.toUpperCase();
     throw new FormatProblem(`it does not begin like a ${format} file`);
   }
