@@ -17,7 +17,7 @@ pub struct Placing<'a> {
     /// The choice ends when so much of the weight is seen that some candidate sees: above 0, at
     /// most 1; 1 by default.
     pub share: Option<f64>,
-    /// How much each index counts: finite numbers of at least 0. 1 each by default.
+    /// How much each index counts: numbers of at least 0 with a finite sum. 1 each by default.
     pub weights: Option<&'a [f64]>,
 }
 
@@ -136,9 +136,11 @@ impl Choice {
             f64::MIN_POSITIVE,
             1.0,
         )?;
-        for &weight in placing.weights.unwrap_or_default() {
+        let weights = placing.weights.unwrap_or_default();
+        for &weight in weights {
             in_range("weights", weight, 0.0, f64::MAX)?;
         }
+        in_range("the sum of weights", weights.iter().sum(), 0.0, f64::MAX)?;
         Ok(Self {
             count: placing.count.unwrap_or(usize::MAX),
             share: placing.share.unwrap_or(1.0),

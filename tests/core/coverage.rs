@@ -54,13 +54,14 @@ fn a_choice_ends_when_enough_is_seen() {
 fn questions_that_make_no_sense_are_refused() {
     let (cloud, candidates, _) = scene(4);
     let usual = Options::default();
-    let (short, negative) = ([1.0], [-1.0; 250]);
+    let (short, negative, heavy) = ([1.0], [-1.0; 250], [f64::MAX; 250]);
     for (count, share, weights) in [
         (Some(0), None, None),
         (None, Some(0.0), None),
         (None, Some(f64::NAN), None),
         (None, None, Some(&short[..])),
         (None, None, Some(&negative[..])),
+        (None, None, Some(&heavy[..])),
     ] {
         let mut placing = Placing::default();
         (placing.count, placing.share, placing.weights) = (count, share, weights);

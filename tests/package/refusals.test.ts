@@ -78,7 +78,7 @@ const OWN: Record<string, object[]> = {
     ...MANY,
     ...each("count", 0, 1.5),
     ...each("share", 0, 1.5, "1"),
-    ...each("weights", 5, [1], new Array(COUNT).fill(-1)),
+    ...each("weights", 5, [1], new Array(COUNT).fill(-1), new Array(COUNT).fill(1e308)),
   ],
 };
 /** Options that only some questions take. Each question here refuses the last of them, and names itself. */
