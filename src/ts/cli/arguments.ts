@@ -103,9 +103,9 @@ export interface Settings {
   format: OutputFormat;
   /** From where: a viewpoint, or the name of a file with viewpoints, or with cameras. */
   place: { viewpoint: number[] } | { viewpoints: string; each: boolean } | { cameras: string; each: boolean };
-  /** The folder of the cameras' images, and how their values become one. */
   /** The size of the cameras' images, if their file does not say it. */
   size: ImageSize | undefined;
+  /** The folder of the cameras' images, and how their values become one. */
   images: ({ images: string } & Pick<TransferOptions, "merge" | "weights">) | undefined;
   options: VisibilityOptions;
   /** The least score of a point that counts as visible. Undefined for the answer's own choice. */

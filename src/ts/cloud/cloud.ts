@@ -295,7 +295,7 @@ export class PointCloud {
         const found: Found = this.#core.ask(next.view);
         task.take(next.number, found);
         if (this.#core.size !== size) {
-          throw new HprError("option", `${method}: what is called must not change the cloud`);
+          throw new HprError("option", `${method}: a callback must not change the cloud`);
         }
       }
       return task.result(this.length);
