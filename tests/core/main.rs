@@ -35,6 +35,7 @@ mod scanned_clouds;
 #[cfg(not(target_family = "wasm"))]
 #[path = "common/scans.rs"]
 mod scans;
+mod scores;
 mod sectors;
 mod sees;
 mod slices;

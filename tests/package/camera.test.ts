@@ -1,3 +1,4 @@
+import type { CameraModel } from "hidden-point-removal";
 import { PerspectiveCamera, OrthographicCamera, Vector3 } from "three";
 import { expect, it, vi } from "vitest";
 
@@ -180,10 +181,33 @@ it("a camera that is none is named by its number", () => {
 it("seenBy has a row for each point, and says its progress", () => {
   const cloud = new PointCloud(positions);
   const heard: number[] = [];
-  const { offsets, cameras, pixels } = cloud.seenBy(ring, { looks: 3, onProgress: (share) => heard.push(share) });
+  const lenses: [CameraModel, number[]][] = [
+    ["PINHOLE", []],
+    ["RADIAL", [-0.1, 0.02]],
+    ["OPENCV", [-0.1, 0.02, 0.001, -0.002]],
+    ["OPENCV_FISHEYE", [-0.1, 0.02, 0.001, -0.002]],
+    ["FOV", [0.9]],
+  ];
+  const many = ring.map((camera, i) => ({ ...camera, model: lenses[i]![0], distortion: lenses[i]![1] }));
+  const onProgress = (share: number) => heard.push(share);
+  const { offsets, cameras, pixels, towards } = cloud.seenBy(many, { looks: 3, onProgress });
   expect(heard).toEqual([0.2, 0.4, 0.6, 0.8, 1]);
-  expect([offsets.length, pixels.length]).toEqual([cloud.length + 1, 2 * cameras.length]);
-  expect(cameras.length).toBeGreaterThan(2000);
+  const rows = Array.from({ length: cloud.length }, (): number[][] => []);
+  for (const [number, camera] of many.entries()) {
+    const seen = cloud.visibleFromCamera(camera, { looks: 3 });
+    seen.indices.forEach((index, k) => rows[index]!.push([number, ...seen.pixels.subarray(2 * k, 2 * k + 2), index]));
+  }
+  const entries = rows.flat();
+  let before = 0;
+  expect([...offsets]).toEqual([0, ...rows.map((row) => (before += row.length))]);
+  expect([...cameras]).toEqual(entries.map(([number]) => number));
+  expect([...pixels]).toEqual(entries.flatMap(([, u, v]) => [u, v]));
+  const off = entries.flatMap(([number, , , index], entry) => {
+    const v = [0, 1, 2].map((axis) => many[number!]!.cameraToWorld[12 + axis]! - positions[3 * index! + axis]!);
+    return v.map((x, axis) => Math.abs(x / Math.hypot(...v) - towards[3 * entry + axis]!));
+  });
+  expect([towards.length, Math.max(...off) < 1e-6]).toEqual([3 * entries.length, true]);
+  expect(entries.length).toBeGreaterThan(2000);
   expect(cloud.seenBy([]).offsets).toEqual(new Uint32Array(cloud.length + 1));
   for (const bad of [undefined, {}, [5], [ring[0], null]]) {
     expect(() => cloud.seenBy(bad as never)).toThrow(expect.objectContaining({ code: "viewpoint" }));

@@ -1,10 +1,10 @@
 // The law of parts: a question about some points of a cloud has the answer of a cloud of these points alone, whatever left
 // the others out, here and in workers.
-import { init, PointCloud } from "hidden-point-removal";
+import { init, PointCloud, type SeenBy } from "hidden-point-removal";
 import { WorkerPointCloud } from "hidden-point-removal/worker";
 import { afterAll, describe, expect, it } from "vitest";
 
-import { asked, Part, type Place, QUESTIONS, strays } from "../fuzz/border/table";
+import { asked, CAMERAS, Part, type Place, QUESTIONS, strays } from "../fuzz/border/table";
 import { outcomeOf } from "../fuzz/border/outcome";
 import { inPart } from "../fuzz/border/parts";
 import { bumpySphere, pointsAt } from "./support";
@@ -24,7 +24,11 @@ const all = Array.from({ length: count }, (_, i) => i);
 const inMask = (i: number) => mask[i] !== 0;
 const inBox = (i: number) =>
   [0, 1, 2].every((k) => box[0][k]! <= positions[3 * i + k]! && positions[3 * i + k]! <= box[1][k]!);
-const isNear = (i: number) => Math.hypot(...AT.map((x, k) => positions[3 * i + k]! - x)) <= 2.4;
+const nearTo =
+  (place: ArrayLike<number>, distance: number) =>
+  (i: number): boolean =>
+    Math.hypot(...[0, 1, 2].map((k) => positions[3 * i + k]! - place[k]!)) <= distance;
+const isNear = nearTo(AT, 2.4);
 /** The option `within`, and which points it leaves. */
 const CHOICES = [
   [{}, () => true],
@@ -63,6 +67,37 @@ const told = async (name: string, part: Part, ask: () => unknown) => {
   const outcome = await outcomeOf(async () => ({ answer: inPart(name, await ask(), part, positions) }));
   return "refused" in outcome ? `${outcome.refused}: ${String(outcome.error)}` : (outcome.answer as object);
 };
+
+/** The rows of one camera. */
+function rowsOf(answer: SeenBy, camera: number) {
+  const entries = Array.from(answer.cameras.keys()).filter((entry) => answer.cameras[entry] === camera);
+  const of = (values: Float32Array, each: number) =>
+    entries.flatMap((entry) => [...values.subarray(each * entry, each * (entry + 1))]);
+  const offsets = Uint32Array.from(answer.offsets, (end) => entries.filter((entry) => entry < end).length);
+  return { offsets, pixels: of(answer.pixels, 2), towards: of(answer.towards, 3) };
+}
+
+it.each(CHOICES.slice(0, 3))("seenBy within a distance of each camera, and %o", async (within, takesPart) => {
+  const distance = 4.3;
+  for (const cloud of [whole, remote]) {
+    for (const options of OPTIONS.filter((options) => !("scores" in options))) {
+      const found = await cloud.seenBy(CAMERAS, { ...options, within: { ...within, distance } });
+      for (const [number, camera] of CAMERAS.entries()) {
+        const isNear = nearTo((camera.cameraToWorld as number[]).slice(12), distance);
+        const part = new Part(
+          count,
+          all.filter((i) => isNear(i) && takesPart(i)),
+        );
+        const alone = new PointCloud(pointsAt(positions, [...part.points]));
+        const expected = rowsOf(alone.seenBy([camera], options), 0);
+        expect(expected.pixels.length).toBeGreaterThan(0);
+        const own = new Part(alone.length);
+        expect(inPart("seenBy", rowsOf(found, number), part)).toEqual(inPart("seenBy", expected, own));
+        alone.dispose();
+      }
+    }
+  }
+});
 
 it("the table has every question", () => {
   expect(strays()).toEqual([]);

@@ -3,7 +3,7 @@
 import { type CameraModel, type ImageCamera, init, PointCloud, transfer } from "hidden-point-removal";
 import { describe, expect, it } from "vitest";
 
-import { CAMERAS, Part, QUESTIONS } from "../fuzz/border/table";
+import { CAMERAS, Part, PLACES, QUESTIONS } from "../fuzz/border/table";
 import { bumpySphere } from "./support";
 
 await init();
@@ -33,7 +33,7 @@ const view = (values: unknown, by: number) => (values as Float64Array).map((valu
 
 /** Arguments in other units: places, poses and thicknesses, but no image, mask, index or direction. */
 function inUnits(tree: unknown, by: number, [model, distortion]: (typeof LENSES)[number]): unknown {
-  if (tree instanceof Float64Array) return tree.length === 3 || tree.length === 9 ? view(tree, by) : tree;
+  if (tree instanceof Float64Array) return [3, PLACES].includes(tree.length) ? view(tree, by) : tree;
   if (typeof tree !== "object" || tree === null || ArrayBuffer.isView(tree)) return tree;
   if (Array.isArray(tree)) return tree.map((branch) => inUnits(branch, by, [model, distortion]));
   if (isLens(tree)) {

@@ -12,6 +12,7 @@ use crate::common::scenes::Scene;
 use crate::common::shapes::{self, Points};
 use crate::common::walk::Walk;
 use crate::common::walked::{self, inversion};
+use crate::common::{cross, dot, length, minus};
 
 /// The number of views of one cloud, and of maps of one view.
 const WALK: usize = 6;
@@ -117,22 +118,6 @@ impl<'a> Front<'a> {
         let doubt = 1e-10 * length(*normal) * length(again);
         (dot(*normal, again) > depth + doubt).then_some(place)
     }
-}
-
-fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    core::array::from_fn(|axis| a[axis] - b[axis])
-}
-
-fn cross([a, b, c]: [f64; 3], [x, y, z]: [f64; 3]) -> [f64; 3] {
-    [b * z - c * y, c * x - a * z, a * y - b * x]
-}
-
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn length(a: [f64; 3]) -> f64 {
-    dot(a, a).sqrt()
 }
 
 /// Some clouds are large, since a map has more to hide there, and some are far from the origin.

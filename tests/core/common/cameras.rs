@@ -2,19 +2,12 @@
 
 use hidden_point_removal::{Camera, CameraModel, Convention, Pose};
 
+use super::cross;
 use super::rng::Rng;
 
 fn unit(v: [f64; 3]) -> [f64; 3] {
     let length = (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt();
     v.map(|x| x / length)
-}
-
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
 }
 
 /// The numbers of a pose from the camera to the world.

@@ -95,3 +95,19 @@ pub fn proved_flipped(flipped: &[Option<[f64; 3]>]) -> Vec<bool> {
         })
         .collect()
 }
+
+pub fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    core::array::from_fn(|axis| a[axis] - b[axis])
+}
+
+pub fn cross([a, b, c]: [f64; 3], [x, y, z]: [f64; 3]) -> [f64; 3] {
+    [b * z - c * y, c * x - a * z, a * y - b * x]
+}
+
+pub fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+pub fn length(a: [f64; 3]) -> f64 {
+    dot(a, a).sqrt()
+}

@@ -41,6 +41,10 @@ const image = (by: number) => ({
   height: 24,
 });
 const behind = () => Float64Array.of(0.5, 0, -4);
+/** Places in and around the surface of a sphere of radius 1, a part of it. Their length tells them from other arrays. */
+export const PLACES = 180;
+const places = () =>
+  Float64Array.from({ length: PLACES }, (_, i) => [0.3, 0.3, 0.9][i % 3]! + [0.6, 0.6, 0.4][i % 3]! * Math.sin(i * i));
 /** For each point of a cloud of so many points. */
 const numbers = (part: Part, length: number) =>
   Float64Array.from(part.of(Array.from({ length }, (_, i) => (i % 5) / 4)));
@@ -55,7 +59,7 @@ export const QUESTIONS: Record<string, (at: unknown, part: Part, all: number) =>
   visibleFromAny: (at) => [[at, behind(), cameras()[1]], {}],
   visibleFromAtLeast: (at) => [2, [at, behind(), cameras()[0]], {}],
   visibleFromCamera: () => [cameras()[1], {}],
-  sees: (at) => [at, Float64Array.of(0.5, 0.7, 1.8, 0.5, 0.6, 0.7, 0, 0, 0.5), {}],
+  sees: (at) => [at, places(), {}],
   coverage: (at) => [[at, behind(), cameras()[0]], {}],
   seenBy: () => [cameras(), {}],
   placeViewpoints: (at, part, all) => [[at, behind(), cameras()[1]], { weights: numbers(part, all) }],
