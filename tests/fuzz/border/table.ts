@@ -42,7 +42,7 @@ const image = (by: number) => ({
 });
 const behind = () => Float64Array.of(0.5, 0, -4);
 /** Places in and around the surface of a sphere of radius 1, a part of it. Their length tells them from other arrays. */
-export const PLACES = 180;
+export const PLACES = 60;
 const places = () =>
   Float64Array.from({ length: PLACES }, (_, i) => [0.3, 0.3, 0.9][i % 3]! + [0.6, 0.6, 0.4][i % 3]! * Math.sin(i * i));
 /** For each point of a cloud of so many points. */
