@@ -159,7 +159,7 @@ pub fn refuse_scores(py: Python<'_>, options: &Options, name: &str) -> PyResult<
 }
 
 /// Reads an argument of a type that pyo3 knows. Another type is refused as any bad input is.
-pub fn given<'py, T: for<'a> FromPyObject<'a, 'py>>(value: &Bound<'py, PyAny>) -> PyResult<T> {
+fn given<'py, T: for<'a> FromPyObject<'a, 'py>>(value: &Bound<'py, PyAny>) -> PyResult<T> {
     let refused = |_| {
         option(
             value.py(),

@@ -9,7 +9,7 @@ type Fields = Record<string, ArrayLike<number> & Iterable<number>>;
 
 /**
  * An answer in the numbers of a cloud of the part alone. For the others it must say that they are not there.
- * 'places': where a map is asked what it hides.
+ * `places`: where a map is asked what it hides.
  */
 export function inPart(name: string, answer: unknown, part: Part, places: Float32Array = new Float32Array()): unknown {
   const others = Array.from({ length: part.length }, (_, i) => i).filter((i) => !part.points.includes(i));
