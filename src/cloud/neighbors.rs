@@ -13,7 +13,7 @@ use glam::DVec3;
 
 use crate::base::allocation::{OutOfMemory, with_capacity};
 use crate::base::beat;
-use crate::base::real::square_root;
+use crate::base::real::{larger, square_root};
 use crate::cloud::points::Points;
 use crate::cloud::spatial::Bounds;
 
@@ -64,7 +64,7 @@ impl<'a> Neighbors<'a> {
     pub(crate) fn find(&self, query: usize, nearest: &mut Nearest) {
         beat::step();
         let Nearest { best, nearby } = nearest;
-        best.found.clear();
+        best.start(query, self.points);
         // The points next to the query in the spatial order come first. So a small bound is known
         // before other boxes are looked at.
         let own = query / LEAF;
@@ -283,8 +283,11 @@ pub(crate) struct Nearest {
 
 /// The nearest points met so far, nearest first, ties by coordinates.
 struct Best {
+    query: u32,
     found: Vec<Neighbor>,
     most: usize,
+    /// The square of a distance within which there are as many.
+    within: f64,
 }
 
 /// The leaves around the leaf of the last query.
@@ -302,8 +305,10 @@ impl Nearest {
     pub(crate) fn with_capacity(most: usize) -> Result<Self, OutOfMemory> {
         Ok(Self {
             best: Best {
+                query: 0,
                 found: with_capacity(most)?,
                 most,
+                within: f64::INFINITY,
             },
             nearby: NearbyLeaves {
                 leaf: usize::MAX,
@@ -320,9 +325,22 @@ impl Nearest {
 }
 
 impl Best {
+    /// Begins a query. The last one was mostly near, and its points tell how far those of this one are at most.
+    fn start(&mut self, query: usize, points: &Points) {
+        self.within = f64::INFINITY;
+        if self.found.len() == self.most {
+            let center = points.get(query);
+            let last = core::iter::once(self.query).chain(self.found.iter().map(|near| near.index));
+            let squares = last.map(|index| distance_squared(center, points.get(index as usize)));
+            self.within = squares.fold(0.0, larger);
+        }
+        self.query = query as u32;
+        self.found.clear();
+    }
+
     fn worst(&self) -> f64 {
         if self.found.len() < self.most {
-            f64::INFINITY
+            self.within
         } else {
             self.found[self.most - 1].squared
         }

@@ -189,7 +189,7 @@ impl Rays {
         let mut is_found = false;
         for &run in near {
             let (rays, bounds) = self.run(run as usize);
-            if bounds.distance_squared(place) > reach {
+            if self.farthest[run as usize] < least || bounds.distance_squared(place) > reach {
                 continue;
             }
             for other in rays {

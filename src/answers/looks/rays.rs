@@ -5,7 +5,7 @@ use core::ops::Range;
 use glam::DVec3;
 
 use crate::base::allocation::{OutOfMemory, push, with_capacity};
-use crate::base::real::square_root;
+use crate::base::real::{larger, square_root};
 use crate::cloud::blocks::FANOUT;
 use crate::cloud::spatial::Bounds;
 
@@ -53,6 +53,8 @@ impl Ray {
 pub(super) struct Rays {
     pub all: Vec<Ray>,
     levels: Vec<Vec<Bounds>>,
+    /// A range that no ray of a run exceeds, for each run.
+    pub farthest: Vec<f64>,
 }
 
 impl Rays {
@@ -60,7 +62,9 @@ impl Rays {
     pub(super) fn of(all: Vec<Ray>) -> Result<Self, OutOfMemory> {
         let mut levels = Vec::new();
         let mut level: Vec<Bounds> = with_capacity(all.len().div_ceil(FANOUT))?;
+        let mut farthest = with_capacity(all.len().div_ceil(FANOUT))?;
         for run in all.chunks(FANOUT) {
+            farthest.push(run.iter().fold(0.0, |most, ray| larger(most, ray.range)));
             level.push(Bounds::around(run.iter().map(|ray| ray.place.to_array())));
         }
         while level.len() > FANOUT {
@@ -74,7 +78,11 @@ impl Rays {
             level = above;
         }
         push(&mut levels, level)?;
-        Ok(Self { all, levels })
+        Ok(Self {
+            all,
+            levels,
+            farthest,
+        })
     }
 
     /// The rays of a run, and their box.
