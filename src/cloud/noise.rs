@@ -24,15 +24,11 @@ const TO_DEVIATION: f64 = 1.15;
 /// A cloud is noisy if its noise is more than this, in spacings. Clean scans have up to 0.065, and
 /// registered ones 0.13 and more. It is none if its rough places lie on two planes: if points are at most this share as far
 /// off them as off one quadric. Clean sheets have 0, scanned surfaces and all kinds of noise 0.34 and more, scans without
-/// noise that lie beside each other 0.13.
-const NOISY: f64 = 0.075;
+/// noise that lie beside each other 0.13. Half of it counts if it is even and [alike](MEASURED), which the corners of clean meshes are not.
+pub(crate) const NOISY: f64 = 0.075;
 /// Rough surfaces, as of plants, grow by more than this from the small to the large surroundings, at the
 /// median place: by 1.32 to 1.58. Layers have 1.14 to 1.24, noise less.
 const ROUGH: f64 = 1.28;
-/// Clouds of few points on curved bodies have more at their edges: this ÷ the number of points.
-const CURVED: f64 = 100.0;
-/// Less noise counts if it is even and [alike](MEASURED). The corners of clean meshes are not. This share of the noise never counts.
-pub(crate) const CLEAN: f64 = 0.04;
 /// Noise is even if this ratio of a low to a very low percentile is not reached. Normal noise gives
 /// 1.29, noisy objects at most 1.57, scans that overlap 1.89 and more.
 const EVEN: f64 = 1.8;
@@ -48,12 +44,10 @@ const PLANES: [usize; 2] = [8, 24];
 /// A surface is measured by a scanner if points are about as far off their planes in the small
 /// surroundings as in the large ones, by this share. Curved surfaces without noise have 0.2 to 0.5.
 const MEASURED: f64 = 0.6;
-/// The gap of one hull's radius is the median spacing, divided by this: for scans, for overlapping
-/// scans, and for even noise by its standard deviation in spacings. The gap of clean surfaces heeds
+/// The gap of one hull's radius is the median spacing ÷ this for a scan, and once more for overlapping
+/// scans. For even noise it is ÷ (1 + this × its standard deviation in spacings). The gap of clean surfaces heeds
 /// outliers and the sparse places of a scan.
 const SCANNED: f64 = 2.0;
-const OVERLAPPING: f64 = 4.0;
-const BY_NOISE: f64 = 1.5;
 
 /// How a cloud's points lie about the surface that they sample.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -93,7 +87,6 @@ pub(crate) struct Noise {
     pub usual: f64,
     /// The noise in spacings, whether it is noise or not.
     pub ratio: f64,
-    /// [`Surface::Layered`] also stands for layers that the planes of neighbors may join.
     pub surface: Surface,
     /// Whether points are off their quadrics everywhere alike, and by more than roundings.
     is_measured: bool,
@@ -130,8 +123,8 @@ impl Noise {
         };
         let is_uneven = low(&cut, 90)? >= EVEN * usual;
         let looser = match surface {
-            Surface::Noisy if ratio > NOISY => 1.0 + BY_NOISE * noise.deviation() / noise.spacing,
-            Surface::Layered => OVERLAPPING,
+            Surface::Noisy if ratio > NOISY => 1.0 + SCANNED * noise.deviation() / noise.spacing,
+            Surface::Layered => SCANNED * SCANNED,
             _ if is_uneven && measured.is_alike()? => SCANNED,
             _ => 1.0,
         };
@@ -275,10 +268,11 @@ impl Measured {
         constants.extend(self.samples.iter().map(|sample| sample.noise));
         let in_places = TO_DEVIATION * low(&constants, 50)?;
         let (surface, ratio, is_noise) = if is_even {
-            let least = if self.is_alike()? { CLEAN } else { NOISY };
+            let least = if self.is_alike()? { 0.5 * NOISY } else { NOISY };
             (Surface::Noisy, everywhere, everywhere > least)
         } else {
-            let least = NOISY + CURVED / count as f64;
+            // Clouds of few points on curved bodies have more at their edges.
+            let least = NOISY * (1.0 + SAMPLES as f64 / count as f64);
             (Surface::Layered, in_places, in_places > least)
         };
         let are_sheets = percentile(&self.sheets, LOW)?.is_some_and(|share| share <= NOISY);

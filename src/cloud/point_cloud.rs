@@ -60,7 +60,6 @@ pub(crate) struct Kept {
     pub sample: Once<Arc<Sampled>>,
     pub statistics: Once<Statistics>,
     pub noise: Once<Arc<Noise>>,
-    pub surface: Once<Surface>,
     pub smooth: Once<Arc<Smooth>>,
     /// The cloud of the points that a mask marks, with one byte for each index.
     #[cfg(feature = "lite")]

@@ -17,15 +17,6 @@ use crate::cloud::sheets::NEAR;
 use crate::cloud::spatial::{Bounds, HilbertCurve};
 use crate::cloud::statistics::NEIGHBORS;
 
-/// How many neighbors of a point must be decided at least.
-const DECIDED: usize = 2;
-/// The number of rounds. A point that was decided in one round is asked in the next.
-const ROUNDS: usize = 2;
-/// The levels of the curve through the places of rays; a key has 32 bits.
-const LEVELS: u32 = 10;
-/// How many rays before and after a place on the curve tell how far the six nearest ones are at most.
-const AROUND: usize = 8;
-
 /// A point that no look decided follows the majority of its decided neighbors.
 pub(super) fn follow(verdicts: &mut Verdicts, points: &Points) -> Result<(), OutOfMemory> {
     let mut open: Vec<u32> = Vec::new();
@@ -41,28 +32,20 @@ pub(super) fn follow(verdicts: &mut Verdicts, points: &Points) -> Result<(), Out
     let neighbors = Neighbors::new(points)?;
     let [voters, _] = NEAR;
     let mut nearest = Nearest::with_capacity(voters)?;
-    for _ in 0..ROUNDS {
-        shares.clear();
-        shares.extend(open.iter().map(|&point| {
-            neighbors.find(point as usize, &mut nearest);
-            share(&nearest, &verdicts.of)
-        }));
-        let mut left = 0;
-        for place in 0..open.len() {
-            let (point, share) = (open[place], shares[place]);
-            if share >= 0.0 {
-                verdicts.decide(point as usize, share > 0.5, share);
-            } else {
-                open[left] = point;
-                left += 1;
-            }
+    shares.extend(open.iter().map(|&point| {
+        neighbors.find(point as usize, &mut nearest);
+        share(&nearest, &verdicts.of)
+    }));
+    for (&point, &share) in open.iter().zip(&shares) {
+        // NaN where no neighbor is decided.
+        if share >= 0.0 {
+            verdicts.decide(point as usize, share > 0.5, share);
         }
-        open.truncate(left);
     }
     Ok(())
 }
 
-/// The share of visible points among the decided ones; −1 where too few are decided.
+/// The share of visible points among the decided ones; NaN where none is decided.
 fn share(nearest: &Nearest, verdicts: &[Verdict]) -> f64 {
     let (mut decided, mut visible) = (0usize, 0usize);
     for neighbor in nearest.found() {
@@ -70,11 +53,7 @@ fn share(nearest: &Nearest, verdicts: &[Verdict]) -> f64 {
         decided += usize::from(verdict != Verdict::Undecided);
         visible += usize::from(verdict == Verdict::Visible);
     }
-    if decided >= DECIDED {
-        visible as f64 / decided as f64
-    } else {
-        -1.0
-    }
+    visible as f64 / decided as f64
 }
 
 impl Verdicts {
@@ -156,7 +135,8 @@ fn sorted(rays: Vec<Ray>, curve: &HilbertCurve) -> Result<(Vec<u32>, Rays), OutO
     let pairs = Pairs::new();
     let mut packed: Vec<u64> = with_capacity(2 * rays.len())?;
     packed.extend((0..).zip(&rays).map(|(index, ray): (u64, _)| {
-        curve.coarse_key(ray.place.to_array(), LEVELS, &pairs) << 32 | index
+        // A key has a bit for each axis and level.
+        curve.coarse_key(ray.place.to_array(), u32::BITS / 3, &pairs) << 32 | index
     }));
     packed.resize(2 * rays.len(), 0);
     let (packed, room) = packed.split_at_mut(rays.len());
@@ -171,7 +151,7 @@ fn sorted(rays: Vec<Ray>, curve: &HilbertCurve) -> Result<(Vec<u32>, Rays), OutO
 impl Rays {
     /// The square of a distance within which there are six rays beside a ray, by those around `middle`.
     fn near(&self, ray: &Ray, middle: usize) -> f64 {
-        let around = middle.saturating_sub(AROUND)..self.all.len().min(middle + AROUND);
+        let around = middle.saturating_sub(FANOUT)..self.all.len().min(middle + FANOUT);
         let mut nearest = [f64::INFINITY; NEIGHBORS];
         for other in &self.all[around] {
             let mut squared = (other.place - ray.place).length_squared();

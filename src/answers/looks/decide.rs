@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 use crate::answers::looks::corners::{Corner, Corners, Triangle};
 use crate::answers::looks::look::{Look, Verdicts};
 use crate::answers::looks::part::{Left, Part};
-use crate::answers::looks::tuning::LEAST;
+use crate::answers::looks::tuning::{LEAST, SHARES};
 use crate::base::allocation::{OutOfMemory, filled, push};
 use crate::base::beat;
 use crate::base::real::larger;
@@ -17,9 +17,6 @@ use crate::hull::{Exit, FaceId, OuterFaces, Vertex};
 /// Surface hides a point that lies farther behind it, along the ray, than this share of the
 /// triangle's longest edge, or than half the distance to the next sheet. At that depth the score is ½: 1 / (1 + depth²).
 pub(super) const BEHIND: f64 = 0.45;
-/// A hull vertex counts as visible only if c is at least this many local spacings of the vertices
-/// beside it. A hull that is too loose for its samples has vertices behind the surface.
-const RING: f64 = 0.02;
 /// The triangles of a surface reach from sample to sample. On most clouds these are as far apart as neighbors are. But
 /// the corners of a mesh can be rows of near points that are far from each other. Then all triangles are long.
 /// A triangle of a surface may be longer than [`LEAST`] if most triangles are long: up to this many times the length that
@@ -98,7 +95,9 @@ impl Verdicts {
         corners: &Corners,
     ) -> Result<Left, OutOfMemory> {
         let numbered = faces.points_of_vertices();
-        let ring = RING * look.tuning.ring;
+        // A hull that is too loose for the samples beside a vertex has vertices behind the surface.
+        let [.., loosest] = SHARES;
+        let ring = loosest * look.tuning.ring;
         let is_even = look.tuning.growth == 0.0;
         let is_wide = look.scale * look.unit >= ring * corners.widest;
         let rings = if is_even && is_wide {

@@ -2,62 +2,18 @@
 //!
 //! The noise of a sensor is everywhere. Points move to the planes of their neighbors, and the looks
 //! are at the moved points. Scans that were put together with errors lie beside each other, only
-//! where they overlap. Where they are near each other, planes of neighbors join them, too. Where
-//! they are not, no neighbor tells which of them is the surface. So the surface counts as thick
+//! where they overlap. No neighbor tells which of them is the surface. So the surface counts as thick
 //! (`tuning`).
 
 use alloc::boxed::Box;
 use alloc::sync::Arc;
-use glam::DVec3;
 
-use crate::answers::denoise::on_plane;
 use crate::answers::looks::look::Seen;
-use crate::base::allocation::{OutOfMemory, filled, with_capacity};
+use crate::base::allocation::filled;
 use crate::base::error::Error;
-use crate::base::sort::percentile;
-use crate::cloud::neighbors::{Nearest, Neighbors};
-use crate::cloud::noise::{CLEAN, Noise, Surface};
+use crate::cloud::noise::{NOISY, Surface};
 use crate::cloud::point_cloud::{PointCloud, Smooth, Survey};
-use crate::cloud::quadric::off_quadric;
-use crate::cloud::sheets::{LOW, NEAR, some};
-
-/// Points move at most so often.
-const PASSES: usize = 3;
-/// Moving points joins layers if, at the high quartile, they lie off their surface afterwards by at most this
-/// share of the noise: by 0.12 to 0.31 in objects whose scans are up to half a spacing off, by 0.42 and more in registered rooms and streets.
-const JOINED: f64 = 0.36;
-
-/// Whether moved points lie in one surface.
-#[inline(never)]
-fn are_joined(cloud: &PointCloud, noise: &Noise) -> Result<bool, OutOfMemory> {
-    let points = &cloud.sequence.points;
-    let neighbors = Neighbors::new(points)?;
-    let [surface, plane] = NEAR;
-    let mut around = Nearest::with_capacity(surface)?;
-    let mut nearest = Nearest::with_capacity(plane)?;
-    let mut moved = with_capacity(surface + 1)?;
-    let mut off = with_capacity(noise.samples.len())?;
-    for sample in some(&noise.samples) {
-        let query = sample.point as usize;
-        neighbors.find(query, &mut around);
-        let [origin, spacing] = [
-            DVec3::from_array(sample.place),
-            DVec3::splat(sample.spacing),
-        ];
-        moved.clear();
-        let others = around.found().iter().map(|other| other.index as usize);
-        for point in core::iter::once(query).chain(others) {
-            neighbors.find(point, &mut nearest);
-            let place = on_plane(points.get(point), &nearest, points);
-            moved.push((DVec3::from_array(place) - origin) / spacing);
-        }
-        let deviation = off_quadric(&moved).deviation;
-        if deviation >= 0.0 {
-            off.push(deviation);
-        }
-    }
-    Ok(percentile(&off, 100 - LOW)?.is_some_and(|high| high < JOINED * noise.ratio))
-}
+use crate::cloud::sheets::NEAR;
 
 impl Smooth {
     fn of(cloud: &PointCloud) -> Result<Self, Error> {
@@ -66,11 +22,13 @@ impl Smooth {
         let neighbors = plane.min(most).max(1);
         let mut moved = cloud.denoised(neighbors)?;
         let mut noise = moved.known_noise()?;
-        for _ in 1..PASSES {
-            if noise.ratio > CLEAN {
-                moved = moved.denoised(neighbors)?;
-                noise = moved.known_noise()?;
-            }
+        // Again as long as that removes what counts as noise.
+        let least = 0.5 * NOISY;
+        let mut before = f64::INFINITY;
+        while noise.ratio > least && before - noise.ratio > least {
+            before = noise.ratio;
+            moved = moved.denoised(neighbors)?;
+            noise = moved.known_noise()?;
         }
         Ok(Self {
             cloud: Box::new(moved),
@@ -119,16 +77,7 @@ impl PointCloud {
     /// # Errors
     /// [`Error::OutOfMemory`].
     pub fn surface(&self) -> Result<Surface, Error> {
-        let measure = || {
-            let noise = self.known_noise()?;
-            let is_joined = noise.surface == Surface::Layered && are_joined(self, &noise)?;
-            Ok(if is_joined {
-                Surface::Noisy
-            } else {
-                noise.surface
-            })
-        };
-        self.kept.surface.get(measure)
+        Ok(self.known_noise()?.surface)
     }
 
     /// What looks with this surface and thickness know of the cloud, if they need it.

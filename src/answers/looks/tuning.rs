@@ -24,8 +24,9 @@ use crate::cloud::statistics::Statistics;
 use crate::flip::kernel::Kernel;
 
 /// The scale c of each look as a share of the cloud's spacing × widening, from tight to loose. Two
-/// looks leave out the middle one. Twice or half of any of these values changes the error little.
-const SHARES: [f64; 3] = [0.28, 0.07, 0.02];
+/// looks leave out the middle one. Twice or half of any of these values changes the error little. A vertex of a hull is
+/// visible only if c is at least the last share of the spacing of those beside it.
+pub(super) const SHARES: [f64; 3] = [0.28, 0.07, 0.02];
 /// The thickness of layers in standard deviations beyond what clean clouds have. Errors on registered scans
 /// change little between 8 and 16.
 const LAYERS: f64 = 14.0;
@@ -331,14 +332,12 @@ pub(super) struct Odds {
 /// The power of the odds on clean surfaces, and where there is noise or a scanner.
 const POWERS: [f64; 2] = [1.4, 0.75];
 /// The shift on scans whose points were not moved: gaps in the scans show what is behind them, and what is far
-/// behind a surface may be seen beside it.
+/// behind a surface may be seen beside it. It is less with thickness: 0 at that of layers with noise of a spacing.
 const SCANNED: f64 = 2.2;
-/// For each spacing of noise that was removed.
-const NOISE: f64 = -1.4;
 /// For each power by which spacing grows with range, as seen from the scanner.
 const GROWTH: f64 = 2.9;
-/// For each spacing of thickness.
-const THICKNESS: f64 = -0.15;
+/// For each spacing of noise that was removed.
+const NOISE: f64 = -1.4;
 /// A score of 1 has finite odds.
 const LEAST_ODDS: f64 = 0.01;
 
@@ -348,7 +347,7 @@ impl Odds {
     pub(super) fn of(removed: Option<f64>, left: Option<f64>, growth: f64) -> Self {
         let shift = match (removed, left) {
             (Some(removed), _) => NOISE * removed,
-            (None, Some(left)) => (SCANNED + THICKNESS * left).max(0.0),
+            (None, Some(left)) => SCANNED * (1.0 - left / LAYERS).max(0.0),
             (None, None) => 0.0,
         };
         let is_measured = removed.is_some() || left.is_some();
