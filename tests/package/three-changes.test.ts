@@ -5,13 +5,13 @@ import { HiddenPointFilter } from "hidden-point-removal/three";
 import * as THREE from "three";
 import { afterEach, beforeAll, beforeEach, describe, expect, it, vi } from "vitest";
 
+import { seeded } from "../bench/generators";
 import { pointsOf } from "./adapters";
 import { CountedWorker, OriginalWorker, replaceWorker, running } from "./node-workers";
-import { bumpySphere, problemOf } from "./support";
+import { bumpySphere, pointsAt, problemOf } from "./support";
 import { type Adapter, adapterFor, drawn, type Filter, type Scene, sceneOf } from "./three-support";
 
 const sphere = bumpySphere(1, 3000);
-const other = bumpySphere(2, 2000);
 const loose = (value: unknown) => value as never;
 
 beforeEach(() => {
@@ -216,61 +216,70 @@ describe("a filter", () => {
       expect(geometry.index).toBeNull();
     });
 
-    const changes: [what: string, change: (scene: Scene) => void][] = [
-      [
-        "another attribute",
-        ({ geometry }) => void geometry.setAttribute("position", new adapter.THREE.BufferAttribute(other, 3)),
-      ],
-      [
-        "another geometry",
-        (scene) => {
-          scene.points.geometry = new adapter.THREE.BufferGeometry();
-          scene.points.geometry.setAttribute("position", new adapter.THREE.BufferAttribute(other, 3));
+    // Whatever changes, in any order: at rest the picture is that of the points as they are.
+    it.each([1, 2, 3, 4, 5, 6])("all of these in any order, with two cameras: %i", async (seed) => {
+      const { THREE } = adapter;
+      const random = seeded(seed);
+      const upTo = (end: number) => Math.floor(random() * end);
+      const made = (count: number) => new THREE.BufferAttribute(bumpySphere(seed, count), 3);
+      const { points, camera } = sceneOf(adapter, bumpySphere(seed, 300));
+      const cameras = [camera, new THREE.PerspectiveCamera()];
+      cameras[1]!.position.set(4, 1, 1);
+      const filter = filterFor(points, {
+        mode: seed % 2 === 0 ? "dim" : "hide",
+        stale: seed % 3 === 0 ? "all" : "keep",
+      });
+      const left: [geometry: Scene["geometry"], drawn: number[]][] = [];
+      /** The user's own index and draw range. */
+      let own = { index: null as number[] | null, start: 0, count: Infinity };
+      const setOwn = (geometry: Scene["geometry"], changed: Partial<typeof own>) => {
+        own = { ...own, ...changed };
+        if ("index" in changed) geometry.setIndex(own.index);
+        else geometry.setDrawRange(own.start, own.count);
+      };
+      const numbers = () => {
+        const { count } = points.geometry.attributes["position"]!;
+        return (own.index ?? Array.from({ length: count }, (_, i) => i)).slice(own.start, own.start + own.count);
+      };
+      const changes: ((geometry: Scene["geometry"]) => unknown)[] = [
+        (geometry) => setOwn(geometry, { index: Array.from({ length: 1 + upTo(200) }, () => upTo(5)) }),
+        (geometry) => setOwn(geometry, { index: null }),
+        (geometry) => setOwn(geometry, { start: upTo(9), count: 1 + upTo(300) }),
+        (geometry) => geometry.setAttribute("position", made(5 + upTo(400))),
+        ({ attributes }) => {
+          attributes["position"]!.setXYZ(0, random(), random(), 1);
+          attributes["position"]!.needsUpdate = true;
         },
-      ],
-      [
-        "a draw range",
-        ({ geometry }) => {
-          geometry.setDrawRange(100, 1900);
+        (geometry) => {
+          left.push([geometry, numbers()]);
+          points.geometry = new THREE.BufferGeometry().setAttribute("position", made(200));
+          own = { index: null, start: 0, count: Infinity };
         },
-      ],
-      ["an index", ({ geometry }) => void geometry.setIndex(Array.from({ length: 1500 }, (_, i) => 2 * i))],
-    ];
-
-    it.each(changes)("%s, like a new filter", async (_, change) => {
-      const [scene, fresh] = [sceneOf(adapter, sphere), sceneOf(adapter, sphere)];
-      const filter = filterFor(scene.points);
-      filter.update(scene.camera);
-      await filter.ready;
-      const old = scene.geometry;
-      change(scene);
-      change(fresh);
-      const expected = filterFor(fresh.points, { worker: false });
-      expected.update(fresh.camera);
-      filter.update(scene.camera);
-      await expect.poll(() => drawn(scene.points.geometry)).toEqual(drawn(fresh.points.geometry));
-      expect(filter.visibleCount).toBe(expected.visibleCount);
-      if (old !== scene.points.geometry) {
-        expect([old.index, old.drawRange]).toEqual([null, { start: 0, count: Infinity }]);
+        () => (filter.mode = filter.mode === "dim" ? "hide" : "dim"),
+        () => (filter.enabled = !filter.enabled),
+        () => (filter.frozen = !filter.frozen),
+        () => new Promise((resolve) => setTimeout(resolve, upTo(9))),
+      ];
+      for (let step = 1; step <= 40; step++) {
+        await changes[upTo(changes.length)]!(points.geometry);
+        const seen = cameras[upTo(2)]!;
+        if (random() < 0.6) filter.update(seen);
+        if (step % 5 > 0) continue;
+        Object.assign(filter, { enabled: true, frozen: false });
+        // No later frame comes than this one.
+        filter.update(seen);
+        await expect.poll(() => filter.settled).toBe(true);
+        const ids = [...new Set(numbers())];
+        const { array } = points.geometry.attributes["position"]!;
+        const visible = visibleFrom(seen.position.toArray(), pointsAt(array as Float32Array, ids));
+        expect(drawn(points.geometry)).toEqual(visible.map((i) => ids[i]));
+        expect(filter.visibleCount).toBe(visible.length);
       }
       filter.dispose();
-      expected.dispose();
-      expect(scene.points.geometry.index?.count).toBe(fresh.points.geometry.index?.count);
-      expect(scene.points.geometry.drawRange).toEqual(fresh.points.geometry.drawRange);
-      expect(drawn(scene.points.geometry)).toEqual(drawn(fresh.points.geometry));
-    });
-
-    it.each(changes)("%s, while an answer is awaited", async (_, change) => {
-      const [scene, fresh] = [sceneOf(adapter, sphere), sceneOf(adapter, sphere)];
-      const filter = filterFor(scene.points);
-      filter.update(scene.camera);
-      change(scene);
-      change(fresh);
-      const expected = filterFor(fresh.points, { worker: false });
-      expected.update(fresh.camera);
-      filter.update(scene.camera);
-      // No frame comes after that.
-      await expect.poll(() => drawn(scene.points.geometry)).toEqual(drawn(fresh.points.geometry));
+      for (const [geometry, before] of [...left, [points.geometry, numbers()] as const]) {
+        expect(drawn(geometry)).toEqual(before);
+      }
+      expect(points.children).toHaveLength(0);
     });
 
     it("positions that move in every frame, without starving", async () => {

@@ -151,6 +151,7 @@ export class DrawnPoints {
    */
   list(indices: Uint32Array, known: Order | undefined): Order {
     const order = known ?? this.#newOrder();
+    const isDrawn = this.#shown === order && this.isSame;
     const { attribute } = order;
     const numbers = attribute.array as Uint32Array;
     numbers.set(indices);
@@ -164,7 +165,7 @@ export class DrawnPoints {
     attribute.clearUpdateRanges();
     attribute.addUpdateRange(0, end);
     attribute.needsUpdate = true;
-    if (this.#shown === order) this.#taken?.geometry.setDrawRange(0, indices.length);
+    if (isDrawn) this.#taken!.geometry.setDrawRange(0, indices.length);
     return order;
   }
 
@@ -175,13 +176,12 @@ export class DrawnPoints {
     return { attribute, indices: new Uint32Array() };
   }
 
-  /** Draws the points of this order. */
+  /** Draws the points of this order. What the user has set since is left, and is read later. */
   show(order: Order): void {
-    if (this.#taken !== undefined && this.#shown !== order) {
-      this.#shown = order;
-      this.#taken.geometry.setIndex(order.attribute);
-      this.#taken.geometry.setDrawRange(0, order.indices.length);
-    }
+    if (this.#shown === order || !this.isSame) return;
+    this.#shown = order;
+    this.#taken!.geometry.setIndex(order.attribute);
+    this.#taken!.geometry.setDrawRange(0, order.indices.length);
   }
 
   /** Restores the index and the draw range from before the filter, except where others have changed them. */

@@ -123,10 +123,12 @@ export class HiddenPointFilter extends CameraFilter<HiddenPointFilterEvents> {
     if (this.isStale) return this.#preparing();
     const [cloud, camera] = [this.#cloud, this.enabled ? this.cameras.due(this.frozen) : undefined];
     if (cloud === undefined || camera === undefined) return undefined;
-    /** An answer about other points is left. No later frame may come that asks about the present ones. */
+    /** An answer about other points is left, one about former positions is drawn. No later frame may come that asks again. */
     const isLeft = () => {
-      this.isStale ||= !this.drawing.drawn.isSame;
-      return this.isStale;
+      const { isSame, isUnchanged } = this.drawing.drawn;
+      const isOther = this.isStale || !isSame;
+      this.isStale ||= !isUnchanged;
+      return isOther;
     };
     return this.view(
       cloud,
