@@ -88,6 +88,8 @@ impl Samples {
         let mut places = with_capacity(all)?;
         places.extend((0..all).map(|sample| (place(sample) - place(0)) / unit));
         let mut sides = with_capacity(all)?;
+        // Of many that are equally long, none is longer by a rounding.
+        let longest = longest * (1.0 + 1e-6);
         sides.extend(spacings.iter().map(|spacing| spacing / longest));
         Ok(Self { places, sides })
     }

@@ -4,6 +4,7 @@
 //! `spatial`), so permuting or duplicating the input changes no bit.
 
 use alloc::vec::Vec;
+use glam::DVec3;
 
 use crate::base::FULL;
 use crate::base::allocation::{OutOfMemory, filled, with_capacity};
@@ -76,7 +77,12 @@ impl Statistics {
             spacing,
             widening,
             gap,
-            middle: axes.map(|[mean, _]| mean),
+            middle: core::array::from_fn(|axis| {
+                // A sample that lies off the cloud's centroid lies as far off the middle.
+                let off = |place: &u32| points.get(*place as usize)[axis] - centroid[axis];
+                let total = places.iter().fold(0.0, |sum, place| sum + off(place));
+                axes[axis][0] - total / places.len() as f64
+            }),
             variance: axes.iter().map(|[_, variance]| variance).sum(),
         })
     }
@@ -110,10 +116,45 @@ fn sampled_spacings(points: &Points, sample: &[u32]) -> Result<Vec<f64>, OutOfMe
 }
 
 /// The centroid of a cloud, and the places of at most [`SAMPLES`] points, in the order of their distance from
-/// it: the middle of each of so many even runs. So it does not matter where the cloud lies, and how it is turned.
+/// a [`corner`]: the middle of each of so many even runs. So it does not matter where the cloud lies, and how it is turned.
 pub(crate) struct Sampled {
     centroid: [f64; 3],
     pub places: Vec<u32>,
+}
+
+/// A place that follows from the cloud alone, away from its symmetries. From the centroid, the corners of a turned part
+/// are equally far, and roundings would choose among them. It is half way to the farthest point, then a quarter of the
+/// way beside that axis and an eighth above that plane. Where points are equally far by a symmetry, any of them will do: the
+/// samples are alike but for it.
+fn corner(points: &Points, vector: impl Fn([f64; 3]) -> DVec3) -> DVec3 {
+    let axis = fittest(points, &vector, DVec3::length_squared);
+    let from_axis = |v: DVec3| (v - axis).length_squared();
+    let unit = axis.normalize_or_zero();
+    let beside = |v: DVec3| v - unit * v.dot(unit);
+    let fit = |v| beside(v).length_squared() * from_axis(v);
+    let side = beside(fittest(points, &vector, fit));
+    let normal = unit.cross(side).normalize_or_zero();
+    let above = |v: DVec3| v.dot(normal);
+    let fit = |v| above(v) * above(v) * from_axis(v);
+    let top = normal * above(fittest(points, &vector, fit));
+    axis / 2.0 + side / 4.0 + top / 8.0
+}
+
+/// The vector of the point that fits best; 0 where none does.
+fn fittest(
+    points: &Points,
+    vector: impl Fn([f64; 3]) -> DVec3,
+    fit: impl Fn(DVec3) -> f64,
+) -> DVec3 {
+    let mut best = (0.0, DVec3::ZERO);
+    for p in points.iter() {
+        let v = vector(p);
+        let fit = fit(v);
+        if fit > best.0 {
+            best = (fit, v);
+        }
+    }
+    best.1
 }
 
 pub(crate) fn sample_of(points: &Points, bounds: &Bounds) -> Result<Sampled, OutOfMemory> {
@@ -129,10 +170,9 @@ pub(crate) fn sample_of(points: &Points, bounds: &Bounds) -> Result<Sampled, Out
     }
     // In this unit no square overflows.
     let unit = power_of_two_below((1.0 / bounds.diagonal()).min(f64::MAX));
-    let squared = |p: [f64; 3]| {
-        let v = [0, 1, 2].map(|axis| (p[axis] - center[axis]) * unit);
-        v[0] * v[0] + v[1] * v[1] + v[2] * v[2]
-    };
+    let vector = |p: [f64; 3]| (DVec3::from_array(p) - DVec3::from_array(center)) * unit;
+    let corner = corner(points, vector);
+    let squared = |p: [f64; 3]| (vector(p) - corner).length_squared();
     // Only the shells that hold a wanted point are sorted. They lie between the nearest point and the farthest one, so
     // that they hold few points each.
     let (near, far) = if FULL {

@@ -277,28 +277,60 @@ fn a_rough_scan_in_voxels_is_seen_from_its_own_station() {
     assert!(lost <= 12.0, "{lost} % lost");
 }
 
-/// A turned part: rings of 200 corners. The nearest points of each lie in its ring, which is flat but for roundings.
-fn rings() -> Vec<Place> {
-    let ring = |row: usize| {
-        let away = if row % 4 == 0 {
-            0.5
-        } else {
-            0.15 + 0.01 * row as f64
-        };
-        let corner = move |k: usize| {
-            let (sin, cos) = (core::f64::consts::TAU * k as f64 / 200.0).sin_cos();
-            [away * cos, 0.2 * row as f64, away * sin]
-        };
-        (0..200).map(corner)
+/// A turned part: rings with so many corners, at their places [beside, along] the axis. All points of a ring are alike, and
+/// the nearest points of each lie in its ring, which is flat but for roundings.
+fn turned(corners: usize, rings: &[[f64; 2]]) -> Vec<Place> {
+    let corner = |[beside, along]: [f64; 2]| {
+        (0..corners).map(move |k| {
+            let (sin, cos) = (core::f64::consts::TAU * k as f64 / corners as f64).sin_cos();
+            [beside * cos, along, beside * sin]
+        })
     };
-    (0..16).flat_map(ring).collect()
+    rings.iter().flat_map(|ring| corner(*ring)).collect()
+}
+
+/// A vase, a capsule, a ring with waves, and parts by chance.
+fn turned_parts(rng: &mut Rng) -> Vec<Vec<Place>> {
+    let vase = |row: usize| {
+        let thin = 0.15 + 0.01 * row as f64;
+        [if row % 4 == 0 { 0.5 } else { thin }, 0.2 * row as f64]
+    };
+    let capsule = |row: usize| {
+        let (sin, cos) = (core::f64::consts::PI * (row % 13) as f64 / 26.0).sin_cos();
+        let end = if row < 13 { 1.0 } else { -1.0 };
+        [0.5 * cos, end * (0.75 + 0.5 * sin)]
+    };
+    let waves = |row: usize| {
+        let (sin, cos) = (core::f64::consts::TAU * row as f64 / 12.0).sin_cos();
+        [0.7 + 0.2 * cos + 0.03 * (3.0 * cos).sin(), 0.2 * sin]
+    };
+    let mut parts = vec![
+        turned(200, &(0..16).map(vase).collect::<Vec<_>>()),
+        turned(100, &(0..26).map(capsule).collect::<Vec<_>>()),
+        turned(300, &(0..12).map(waves).collect::<Vec<_>>()),
+    ];
+    for _ in 0..3 {
+        let corners = 150 + rng.below(250);
+        let ring = |row: usize| [rng.between(0.2, 0.7), 0.1 * row as f64];
+        parts.push(turned(corners, &(0..16).map(ring).collect::<Vec<_>>()));
+    }
+    parts
+}
+
+/// A turn by chance: its axes.
+fn turn(rng: &mut Rng) -> [Place; 3] {
+    let [a, b, c] = [0; 3].map(|_| rng.between(0.0, core::f64::consts::TAU).sin_cos());
+    let about = |axis: usize, (sin, cos): (f64, f64), mut p: Place| {
+        let [u, v] = [(axis + 1) % 3, (axis + 2) % 3];
+        (p[u], p[v]) = (cos * p[u] - sin * p[v], sin * p[u] + cos * p[v]);
+        p
+    };
+    let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    axes.map(|axis| about(2, c, about(1, b, about(0, a, axis))))
 }
 
 #[test]
 fn a_cloud_that_moves_or_turns_has_the_same_views() {
-    let (sin, cos) = 0.83f64.sin_cos();
-    let turned = |[x, y, z]: Place| [cos * x - sin * y, sin * x + cos * y, z];
-    let tipped = |[x, y, z]: Place| [x, cos * y - sin * z, sin * y + cos * z];
     let mut rng = Rng::new(41);
     let mut noisy = |p: Place| p.map(|x| x + rng.between(-0.004, 0.004));
     let shape = |seed, blocks: &[Block], count| sampled(&mut Rng::new(seed), blocks, count);
@@ -312,10 +344,26 @@ fn a_cloud_that_moves_or_turns_has_the_same_views() {
     ];
     let noisy_ones = [shape(47, &table(), 6000), shape(48, &shelf(), 4000)];
     shapes.extend(noisy_ones.map(|points| points.into_iter().map(&mut noisy).collect()));
-    shapes.push(rings());
+    shapes.extend(turned_parts(&mut Rng::new(51)));
     let scanned = scan(&mut rng, &room(), [0.5, 0.6, 1.4], 60, 0.004);
     shapes.push(scanned.into_iter().map(|pair| pair[0]).collect());
     let viewpoint = [0.8, -1.9, 1.4];
+    let still = |unit: f64, shift: Place| {
+        (
+            unit,
+            [0, 1, 2].map(|axis| [0, 1, 2].map(|other| f64::from(axis == other))),
+            shift,
+        )
+    };
+    let mut motions = vec![
+        still(1.0, [1.0; 3]),
+        still(2.0, [0.0; 3]),
+        still(3.0, [0.0; 3]),
+    ];
+    for _ in 0..3 {
+        let shift = [0; 3].map(|_| rng.between(-3.0, 3.0));
+        motions.push((1.0, turn(&mut rng), shift));
+    }
     for (shape, points) in shapes.iter().enumerate() {
         let ask = |change: &dyn Fn(Place) -> Place, options: &Options| {
             let points: Vec<Place> = points.iter().map(|p| change(*p)).collect();
@@ -325,15 +373,13 @@ fn a_cloud_that_moves_or_turns_has_the_same_views() {
         };
         for options in [Options::default(), looks()] {
             let (radius, mask) = ask(&|p| p, &options);
-            let changes: [(f64, &dyn Fn(Place) -> Place); 5] = [
-                (1.0, &|p| p.map(|x| x + 1.0)),
-                (1.0, &|[x, y, z]| [x + 0.3, y - 2.7, z + 0.11]),
-                (1.0, &|p| tipped(turned(p))),
-                (2.0, &|p| p.map(|x| 2.0 * x)),
-                (3.0, &|p| p.map(|x| 3.0 * x)),
-            ];
-            for (number, (unit, change)) in changes.into_iter().enumerate() {
-                let (other, seen) = ask(change, &options);
+            for (number, (unit, axes, shift)) in motions.iter().enumerate() {
+                let change = |p: Place| -> Place {
+                    let along =
+                        |k: usize| axes[0][k] * p[0] + axes[1][k] * p[1] + axes[2][k] * p[2];
+                    core::array::from_fn(|k| unit * (along(k) + shift[k]))
+                };
+                let (other, seen) = ask(&change, &options);
                 let differ = mask
                     .iter()
                     .zip(&seen)
