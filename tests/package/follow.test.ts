@@ -1,11 +1,14 @@
 // How answers keep up with a camera. All adapters and the demo page share this code. The tests
 // control the time, the questions and the answers. adapters.test.ts has what each adapter promises by it.
+import { Group, PerspectiveCamera, Vector3 } from "three";
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 
 import { HprError } from "../../src/ts/base/errors.js";
 import { type Followed, Follower, Recovery, type RecoveryTimes, type Round } from "../../src/ts/follow/follower.js";
 import { Readiness } from "../../src/ts/follow/events.js";
 import { Refinement } from "../../src/ts/follow/view.js";
+import { FollowedCameras } from "../../src/ts/three/cameras.js";
+import { type Cloud, see } from "../../src/ts/worker/followed-cloud.js";
 
 const LOST = new HprError("internal", "the worker died");
 
@@ -399,5 +402,64 @@ describe("maps", () => {
     expect(points(...Array<number>(30).fill(90)).at(-1)).toBe(50_000);
     expect(points(...Array<number>(30).fill(13)).at(-1)).toBe(50_000);
     expect(points(...Array<number>(30).fill(4)).at(-1)).toBe(usual);
+  });
+
+  it("are of what the camera sees, until it turns away", () => {
+    const [map, looks] = [
+      { kind: "map", options: {}, rest: 0 },
+      { kind: "looks", options: {}, rest: 0 },
+    ] as const;
+    const settings = { stages: [looks], mapped: [map, looks], stale: "map" } as const;
+    const nothing = () => undefined;
+    const cameras = new FollowedCameras(settings, nothing, nothing, () => true);
+    cameras.again(50_000, 0.01);
+    // The cloud turns by 90 degrees about z, in other units.
+    const points = new Group();
+    points.rotation.z = Math.PI / 2;
+    points.scale.setScalar(4);
+    const camera = new PerspectiveCamera(40, 1.5);
+    camera.position.set(8, 0, 0);
+    const turned = (degrees: number) => {
+      camera.rotation.y = (degrees * Math.PI) / 180;
+      return cameras.look(cameras.of(camera), points);
+    };
+    /** Draws the answer that is due. Returns the options of a map. */
+    const answered = () => {
+      let asked: unknown;
+      const cloud = {
+        visibilityMap: (_: unknown, options: unknown) => (asked = options),
+        visibleFrom: nothing,
+      } as unknown as Cloud;
+      const round = cameras.of(camera).see(
+        "map",
+        (place, stage) => see(cloud, place, stage),
+        () => nothing,
+      );
+      round.use(round.ask() as never);
+      return asked as { towards: { direction: number[]; angle: number } };
+    };
+    expect(turned(0)).toBe(true);
+    const { direction, angle } = answered().towards;
+    const axis = points.localToWorld(new Vector3(...direction)).normalize();
+    for (const [x, y] of [
+      [-1, -1],
+      [1, -1],
+      [-1, 1],
+      [1, 1],
+    ] as const) {
+      const corner = new Vector3(x, y, 0).unproject(camera).sub(camera.position);
+      expect(2 * axis.angleTo(corner) * (180 / Math.PI)).toBeCloseTo(angle - 30, 6);
+    }
+    expect(turned(14)).toBe(false);
+    expect(turned(-16)).toBe(true);
+    answered();
+    expect(turned(-30)).toBe(false);
+    camera.fov = 75;
+    camera.updateProjectionMatrix();
+    expect(turned(-30)).toBe(true);
+    answered();
+    // The answer at rest is of all directions.
+    expect(answered()).toBeUndefined();
+    expect(turned(150)).toBe(false);
   });
 });

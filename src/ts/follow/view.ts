@@ -1,7 +1,7 @@
 import { HprError } from "../base/errors.js";
 import type { Visibility } from "../cloud/visibility.js";
 import { VisibilityMap } from "../cloud/visibility-map.js";
-import { isFarFrom, isNear, type Place } from "../query/positions.js";
+import { isFarFrom, isNear, isTurned, type Place } from "../query/positions.js";
 import type { VisibilityOptions } from "../query/view-options.js";
 import type { Round } from "./follower.js";
 import type { AnswerKind, FollowSettings, Stage } from "./options.js";
@@ -182,11 +182,15 @@ export class FollowedView extends Refinement<VisibilityOptions> {
     return this.drawn?.kind ?? null;
   }
 
-  /** Takes up the place of a frame. Returns whether it is new. `rounding`: how far rounding alone may move it. */
+  /**
+   * Takes up the place of a frame. Returns whether it is new, also for a map's directions. `rounding`: how far rounding
+   * alone may move it.
+   */
   move(place: Place, spacing: number, rounding = 0): boolean {
     this.framed();
     this.#before = this.place;
-    const isNew = this.place === undefined || !isNear(this.place, place, spacing, rounding);
+    const isBeside = this.answer === "map" && isTurned(this.place?.cone, place.cone);
+    const isNew = this.place === undefined || isBeside || !isNear(this.place, place, spacing, rounding);
     if (isNew) this.place = place;
     return isNew;
   }

@@ -230,6 +230,14 @@ function lengthOf(value: unknown): number | undefined {
 export interface Place {
   readonly from: readonly number[];
   readonly isDirection: boolean;
+  /** The directions of its picture. Undefined: all. */
+  readonly cone?: Directions | undefined;
+}
+
+/** A cone: its axis, of length 1, and its full opening in degrees. */
+export interface Directions {
+  readonly direction: readonly number[];
+  readonly angle: number;
 }
 
 /** A shorter move, as a share of the cloud's spacing, cannot be seen. */
@@ -252,6 +260,21 @@ export function isNear(a: Place, b: Place, spacing: number, rounding = 0): boole
 
 /** The cosine of the largest angle between two places, seen from the center, at which one may stand in for the other. */
 const STAND_IN = Math.cos((2 * Math.PI) / 180);
+
+/** A map is made for a camera that turns by so many degrees at most. */
+const TURNS = 15;
+
+/** The directions that a camera sees when it turns a little. */
+export function widened(cone: Directions | undefined): Directions | undefined {
+  return cone && { ...cone, angle: Math.min(cone.angle + 2 * TURNS, 360) };
+}
+
+/** Whether `b` has directions that are not in the {@link widened} `a`. */
+export function isTurned(a: Directions | undefined, b: Directions | undefined): boolean {
+  if (a === undefined || b === undefined) return a !== undefined;
+  const cosine = a.direction.reduce((sum, x, axis) => sum + x * b.direction[axis]!, 0);
+  return (Math.acos(Math.min(Math.max(cosine, -1), 1)) * 180) / Math.PI + (b.angle - a.angle) / 2 > TURNS;
+}
 
 /** Whether a picture from `a` is too different to be shown at `b`. */
 export function isFarFrom(a: Place, b: Place, center: readonly number[]): boolean {

@@ -8,7 +8,7 @@ import { Events as Sender, Readiness } from "../follow/events.js";
 import { Follower, type Round } from "../follow/follower.js";
 import { type AnswerKind, stagesFor } from "../follow/options.js";
 import type { Seen } from "../follow/view.js";
-import { readViewpoint, type Viewpoint } from "../query/positions.js";
+import { type Place, readViewpoint, type Viewpoint, widened } from "../query/positions.js";
 import { type Cloud, see } from "../worker/followed-cloud.js";
 import { type FollowedCamera, FollowedCameras, inSpace, type Space } from "./cameras.js";
 import { type AskedOptions, changedSettings, type FilterSettings, readFilterOptions, withOption } from "./options.js";
@@ -352,7 +352,7 @@ export abstract class CameraFilter<Events extends FilterEvents> extends Sender<E
     return camera.see(
       this.settings.stale,
       (place, stage) => see(cloud, place, stage, this.settings.origin),
-      (answer, kind, milliseconds, { from, isDirection }) => {
+      (answer, kind, milliseconds, seat) => {
         const isMap = answer instanceof VisibilityMap;
         const drawn = isMap ? drawMap(answer) : draw(answer);
         if (drawn === undefined) return undefined;
@@ -362,11 +362,12 @@ export abstract class CameraFilter<Events extends FilterEvents> extends Sender<E
           this.#answered = { radius: answer.radius, exponent: answer.exponent };
           this.readiness.resolve();
         }
+        const { from, isDirection } = seat;
         const [viewpoint, direction] = isDirection ? [null, [...from]] : [[...from], null];
         const place = { camera: camera.camera, viewpoint, direction };
         const visibility = isMap ? null : answer;
         const change = { ...drawn, ...this.#answered, ...place, visibility, milliseconds, answer: kind };
-        if (!isMap && camera.isSettled) this.#prepareMaps(cloud, place);
+        if (!isMap && camera.isSettled) this.#prepareMaps(cloud, seat);
         return () => {
           this.tell();
           this.send("change" as never, change as never);
@@ -376,12 +377,12 @@ export abstract class CameraFilter<Events extends FilterEvents> extends Sender<E
   }
 
   /** The first map of a cloud takes longer, so it is made before a camera moves. */
-  #prepareMaps(cloud: Cloud, { viewpoint }: Pick<FilterChange, "viewpoint">): void {
+  #prepareMaps(cloud: Cloud, { from, isDirection, cone }: Place): void {
     const [map] = stagesFor(this.settings, cloud.length, this.drawing.isAble);
-    if (this.#prepared === cloud || viewpoint === null || map?.kind !== "map") return;
+    if (this.#prepared === cloud || isDirection || map?.kind !== "map") return;
     this.#prepared = cloud;
     // If it is refused, the first move says why; if the filter is disposed of, nobody needs it.
-    Promise.resolve(cloud.visibilityMap(viewpoint, map.options)).catch(() => undefined);
+    Promise.resolve(cloud.visibilityMap(from, { ...map.options, towards: widened(cone) })).catch(() => undefined);
   }
 
   /** Says once that no map can be drawn. */

@@ -1,6 +1,6 @@
 import type { PointCloud } from "../cloud/cloud.js";
 import type { AskedStage, Seen } from "../follow/view.js";
-import type { Place } from "../query/positions.js";
+import { type Place, widened } from "../query/positions.js";
 import type { VisibilityOptions } from "../query/view-options.js";
 import { WorkerPointCloud } from "./client.js";
 
@@ -13,13 +13,13 @@ export type Cloud = PointCloud | WorkerPointCloud;
  */
 export function see(
   cloud: Cloud,
-  { from, isDirection }: Place,
+  { from, isDirection, cone }: Place,
   { kind, options, signal, points }: Pick<AskedStage<VisibilityOptions>, "kind" | "options" | "signal" | "points">,
   origin?: readonly number[],
 ): Seen | Promise<Seen> {
   const asked = cloud instanceof WorkerPointCloud ? { ...options, signal } : options;
   if (kind === "map") {
-    return cloud.visibilityMap(from, { ...asked, points, origin });
+    return cloud.visibilityMap(from, { ...asked, points, towards: widened(cone), origin });
   }
   return isDirection ? cloud.visibleFromDirection(from, asked) : cloud.visibleFrom(from, asked);
 }
