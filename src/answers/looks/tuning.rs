@@ -21,6 +21,7 @@ use crate::cloud::point_cloud::{PointCloud, Survey};
 use crate::cloud::points::Points;
 use crate::cloud::spatial::Bounds;
 use crate::cloud::statistics::Statistics;
+use crate::cloud::surface::SAMPLES;
 use crate::flip::kernel::Kernel;
 
 /// The scale c of each look as a share of the cloud's spacing × widening, from tight to loose. Two
@@ -253,10 +254,13 @@ impl Range<'_> {
         if growth > 0.0 { growth } else { 0.0 }
     }
 
-    /// The share of the samples whose nearest point by direction is elsewhere.
+    /// The share of the samples whose nearest point by direction is elsewhere. Of a large cloud, an even part is looked
+    /// through.
     fn share_away(&self, points: &Points) -> Result<f64, OutOfMemory> {
-        let mut rays = with_capacity(points.len())?;
-        let places = points.iter().enumerate();
+        let step = (points.len() / (64 * SAMPLES)).max(1);
+        let sparser = square_root(step as f64);
+        let mut rays = with_capacity(points.len().div_ceil(step))?;
+        let places = points.iter().enumerate().step_by(step);
         rays.extend(places.map(|(point, place)| Ray::to(self.place(place), None, point)));
         let rays = Rays::of(rays)?;
         let mut away = 0;
@@ -276,7 +280,7 @@ impl Range<'_> {
                 }
                 least
             };
-            let reach = meet(sample.point as usize / FANOUT);
+            let reach = meet(sample.point as usize / step / FANOUT);
             rays.list(
                 &Bounds::around([own.place.to_array()].into_iter()),
                 reach,
@@ -286,7 +290,7 @@ impl Range<'_> {
                 meet(run as usize);
             });
             let apart = nearest.place * nearest.range - place;
-            let near = NEAR * sample.spacing / self.farthest;
+            let near = NEAR * sample.spacing * sparser / self.farthest;
             away += usize::from(apart.length_squared() > near * near);
         }
         Ok(away as f64 / self.noise.samples.len() as f64)
