@@ -154,8 +154,8 @@ it.each([
   console.table(found);
   for (const { name, settled, moving, faint, all, maps, mismatched, wrong, isOwn } of found!) {
     expect(maps).toBe(6);
-    // The card tests nodes that are elsewhere with a wider margin, and a dimmed point may be as bright as a visible one.
-    expect(mismatched).toBeLessThan(60);
+    // The card tests nodes that are elsewhere with wider borders of cells, and a dimmed point may be as bright as a visible one.
+    expect(mismatched).toBeLessThan(100);
     // Of 8,000 points that three looks show, at most one in a hundred is left out in a frame.
     expect(wrong).toBeLessThan(6 * 80);
     expect(moving).toBeGreaterThan(0.9 * settled);
