@@ -11,6 +11,7 @@ use alloc::vec::Vec;
 use core::ops::Range;
 use glam::DVec3;
 
+use crate::base::FULL;
 use crate::base::allocation::{OutOfMemory, with_capacity};
 use crate::base::beat;
 use crate::base::real::{larger, square_root};
@@ -328,11 +329,12 @@ impl Best {
     /// Begins a query. The last one was mostly near, and its points tell how far those of this one are at most.
     fn start(&mut self, query: usize, points: &Points) {
         self.within = f64::INFINITY;
-        if self.found.len() == self.most {
+        // Without looks, samples are asked, which are far from each other.
+        if FULL && self.found.len() == self.most {
             let center = points.get(query);
-            let last = core::iter::once(self.query).chain(self.found.iter().map(|near| near.index));
-            let squares = last.map(|index| distance_squared(center, points.get(index as usize)));
-            self.within = squares.fold(0.0, larger);
+            let squared = |index: u32| distance_squared(center, points.get(index as usize));
+            let last = self.found.iter().map(|near| squared(near.index));
+            self.within = last.fold(squared(self.query), larger);
         }
         self.query = query as u32;
         self.found.clear();

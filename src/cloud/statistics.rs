@@ -71,18 +71,17 @@ impl Statistics {
         let areas = surface::into_areas(spacings);
         let axes: [[f64; 2]; 3] =
             core::array::from_fn(|axis| surface::moments(&areas, &|number| point(number)[axis]));
+        // A sample that lies off the cloud's centroid lies as far off the middle.
+        let off = places.iter().fold(DVec3::ZERO, |off, &place| {
+            off + (DVec3::from_array(points.get(place as usize)) - DVec3::from_array(*centroid))
+        });
         Ok(Self {
             count: n,
             centroid: *centroid,
             spacing,
             widening,
             gap,
-            middle: core::array::from_fn(|axis| {
-                // A sample that lies off the cloud's centroid lies as far off the middle.
-                let off = |place: &u32| points.get(*place as usize)[axis] - centroid[axis];
-                let total = places.iter().fold(0.0, |sum, place| sum + off(place));
-                axes[axis][0] - total / places.len() as f64
-            }),
+            middle: core::array::from_fn(|axis| axes[axis][0] - off[axis] / places.len() as f64),
             variance: axes.iter().map(|[_, variance]| variance).sum(),
         })
     }
@@ -127,34 +126,21 @@ pub(crate) struct Sampled {
 /// way beside that axis and an eighth above that plane. Where points are equally far by a symmetry, any of them will do: the
 /// samples are alike but for it.
 fn corner(points: &Points, vector: impl Fn([f64; 3]) -> DVec3) -> DVec3 {
-    let axis = fittest(points, &vector, DVec3::length_squared);
-    let from_axis = |v: DVec3| (v - axis).length_squared();
-    let unit = axis.normalize_or_zero();
-    let beside = |v: DVec3| v - unit * v.dot(unit);
-    let fit = |v| beside(v).length_squared() * from_axis(v);
-    let side = beside(fittest(points, &vector, fit));
-    let normal = unit.cross(side).normalize_or_zero();
-    let above = |v: DVec3| v.dot(normal);
-    let fit = |v| above(v) * above(v) * from_axis(v);
-    let top = normal * above(fittest(points, &vector, fit));
-    axis / 2.0 + side / 4.0 + top / 8.0
-}
-
-/// The vector of the point that fits best; 0 where none does.
-fn fittest(
-    points: &Points,
-    vector: impl Fn([f64; 3]) -> DVec3,
-    fit: impl Fn(DVec3) -> f64,
-) -> DVec3 {
-    let mut best = (0.0, DVec3::ZERO);
-    for p in points.iter() {
-        let v = vector(p);
-        let fit = fit(v);
-        if fit > best.0 {
-            best = (fit, v);
+    let [mut parts, mut units] = [[DVec3::ZERO; 3]; 2];
+    for axis in 0..3 {
+        let (mut most, first) = (0.0, parts[0]);
+        for v in points.iter().map(&vector) {
+            let rest = units
+                .iter()
+                .fold(v, |rest, &unit| rest - unit * v.dot(unit));
+            let fit = rest.length_squared() * (v - first).length_squared();
+            if fit > most {
+                (most, parts[axis]) = (fit, rest);
+            }
         }
+        units[axis] = parts[axis].normalize_or_zero();
     }
-    best.1
+    parts[0] / 2.0 + parts[1] / 4.0 + parts[2] / 8.0
 }
 
 pub(crate) fn sample_of(points: &Points, bounds: &Bounds) -> Result<Sampled, OutOfMemory> {

@@ -86,6 +86,39 @@ fn a_map_that_follows_a_viewpoint_hides_most() {
     }
 }
 
+/// From a scanner's place, where c grows with the distance, and from elsewhere.
+#[test]
+fn a_map_of_looks_hides_hardly_a_point_that_they_show() {
+    let mut rng = Rng::new(6);
+    let points: Vec<[f64; 3]> = (0..40_000)
+        .map(|_| {
+            let ahead = rng.direction();
+            let walls = [9.0, 6.0, 2.0].into_iter().zip(ahead);
+            let wall = walls.fold(1e9, |least: f64, (x, d)| least.min(x / d.abs()));
+            let is_box = ahead[0] > 0.9 && rng.chance(2);
+            let range = if is_box { 3.0 / ahead[0] } else { wall };
+            ahead.map(|x| x * range)
+        })
+        .collect();
+    let cloud = PointCloud::new(&points).unwrap();
+    let options = Options::looks(3);
+    let [mut hidden, mut found] = [0, 0];
+    for viewpoint in [[0.1, 0.0, 0.1], [-6.0, 1.0, 0.5]] {
+        let seen = cloud.visible_from(viewpoint, &options).unwrap();
+        let map = cloud.visibility_map(viewpoint, &options, &MapOptions::default());
+        let map = map.unwrap();
+        let mut wrong = 0;
+        for (point, visible) in points.iter().zip(seen.mask()) {
+            hidden += usize::from(visible == 0);
+            found += usize::from(visible == 0 && map.hides(*point));
+            wrong += usize::from(visible == 1 && map.hides(*point));
+        }
+        let shown = seen.indices().len();
+        assert!(100 * wrong <= shown, "{wrong} of {shown}");
+    }
+    assert!(10 * found > hidden, "{found} of {hidden}");
+}
+
 #[test]
 fn far_from_0_an_origin_keeps_a_map_sharp() {
     let place = [452_000.0, 5_411_000.0, 300.0];
