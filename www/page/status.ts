@@ -112,8 +112,9 @@ export class Status {
     for (const line of document.querySelectorAll(".found")) line.textContent = `${SURFACES[kind]}${behind}.`;
   }
 
-  /** A map is drawn. The numbers of the last answer stay. */
+  /** A map is drawn. The numbers of the last answer stay. Its sentence is not announced: the movement has not stopped. */
   map({ viewpoint, milliseconds }: Mapped): void {
+    clearTimeout(this.#announcing);
     this.#refilters++;
     Object.assign(this.#element.dataset, {
       answer: "map",
