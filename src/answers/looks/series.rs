@@ -15,6 +15,7 @@ use crate::cloud::point_cloud::{PointCloud, Smooth, Survey};
 use crate::cloud::points::Points;
 use crate::cloud::statistics::Statistics;
 use crate::flip::inversion::{Flip, Lift};
+use crate::flip::kernel::Kernel;
 use crate::hull::{self, Memory, OuterFaces};
 use crate::view::resolved::check_viewpoint;
 
@@ -54,7 +55,7 @@ pub(crate) struct Depth {
     pub aside: f64,
 }
 
-/// The hull of a map that stands in for looks: its flip, where points may be visible besides, and the farthest
+/// The hull of a map that stands in for looks: its kernel, where points may be visible besides, and the farthest
 /// distance of a point. The map's points are `apart` times as far from each other as those of the cloud.
 #[inline(never)]
 pub(crate) fn look_of_map(
@@ -63,7 +64,7 @@ pub(crate) fn look_of_map(
     viewpoint: [f64; 3],
     thickness: Option<f64>,
     apart: f64,
-) -> Result<(Flip, Depth, f64), Error> {
+) -> Result<(Kernel, Depth, f64), Error> {
     check_viewpoint(viewpoint)?;
     let points = &cloud.sequence.points;
     let farthest = cloud.blocks.farthest_distance(points, viewpoint)?;
@@ -77,11 +78,7 @@ pub(crate) fn look_of_map(
     }
     // The margins of a measured thickness are wide enough as they are.
     let aside = thickness.map_or(0.0, |_| tuning.thickness);
-    Ok((
-        Flip::new(viewpoint, kernel),
-        Depth { behind, aside },
-        farthest,
-    ))
+    Ok((kernel, Depth { behind, aside }, farthest))
 }
 
 /// What looks are asked for.

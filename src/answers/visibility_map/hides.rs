@@ -13,14 +13,12 @@
 
 use alloc::vec::Vec;
 
-use crate::answers::looks::Depth;
-use crate::answers::visibility_map::gauge::{Gauge, MOST};
+use crate::answers::visibility_map::gauge::{Asked, Gauge, MOST};
 use crate::answers::visibility_map::grid::EMPTY;
 use crate::answers::visibility_map::levels::{Champions, Levels};
 use crate::answers::visibility_map::surface::{spread, widen};
 use crate::base::allocation::{OutOfMemory, filled};
 use crate::base::real::square_root;
-use crate::flip::inversion::Flip;
 
 /// The numbers before the first corner: eight for each side of the cube.
 const HEADER: usize = 48;
@@ -90,8 +88,7 @@ impl VisibilityMap {
         &mut self,
         champions: &Champions,
         levels: &mut Levels,
-        flip: &Flip,
-        depth: Option<Depth>,
+        asked: &Asked,
     ) -> Result<(), OutOfMemory> {
         let grid = &champions.grid;
         let nearest = champions
@@ -99,8 +96,7 @@ impl VisibilityMap {
             .iter()
             .fold(EMPTY, |least, &cell| cell.min(least));
         let nearest = f32::from_bits((nearest >> 32) as u32);
-        let behind = depth.as_ref().map(|depth| depth.behind);
-        let Some(gauge) = Gauge::new(flip, f64::from(nearest), behind) else {
+        let Some(gauge) = Gauge::new(asked, nearest) else {
             return Ok(());
         };
         let corners = grid.corners();
@@ -121,7 +117,7 @@ impl VisibilityMap {
             levels.fill(champions, side, gauge, &mut distances[window.first..])?;
         }
         distances[corners..].fill(0.0);
-        if let Some(depth) = depth {
+        if let Asked::Looks(_, depth) = asked {
             let distances = &mut distances[..corners];
             if depth.aside > 0.0 {
                 widen(grid, depth.aside, distances)?;

@@ -19,6 +19,7 @@ mod surface;
 
 use crate::answers::looks::{look_of_map, looked_at};
 use crate::answers::memory::ViewMemory;
+use crate::answers::visibility_map::gauge::Asked;
 use crate::base::error::Error;
 use crate::cloud::point_cloud::PointCloud;
 use crate::cloud::points::Points;
@@ -91,7 +92,7 @@ impl PointCloud {
             if is_in_units(view.farthest)
                 && let Some((champions, levels, _)) = maps.champions(self, false, viewpoint, map)?
             {
-                made.fill(&champions, levels, &view.flip, None)?;
+                made.fill(&champions, levels, &Asked::Hull(&view.flip))?;
             }
             return Ok(made);
         }
@@ -103,10 +104,10 @@ impl PointCloud {
             maps.champions(source, is_smooth, viewpoint, map)?
         {
             let thickness = options.thickness;
-            let (flip, depth, farthest) =
+            let (kernel, depth, farthest) =
                 look_of_map(self, survey.as_ref(), viewpoint, thickness, apart)?;
             if is_in_units(farthest) {
-                made.fill(&champions, levels, &flip, Some(depth))?;
+                made.fill(&champions, levels, &Asked::Looks(kernel, depth))?;
             }
         }
         Ok(made)

@@ -4,7 +4,8 @@
 //! looks decides as looks do, with wider margins, since it has fewer points. A point is hidden that lies
 //! farther behind the triangle of champions before it, back in its place, than some times the triangle's longest edge, and
 //! that the gauge of a loose hull hides as well. This is not proved; docs/LOOKS.md tells
-//! how often it is wrong.
+//! how often it is wrong. To take only triangles of few local spacings, as looks do, or the gauge of a tighter look finds more in
+//! scans, but hides up to 17 % of what looks show through sparse walls.
 
 use glam::Vec4;
 
