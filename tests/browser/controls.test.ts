@@ -4,8 +4,10 @@ import {
   answerInNode,
   drag,
   dragonPositions,
+  openPage,
   openReady,
   picture,
+  reached,
   refiltered,
   said,
   settled,
@@ -193,4 +195,15 @@ test("the sentence is announced once, after the movement", async () => {
   // A sentence is announced when no answer has come for a second. A slow machine may rest that long between two drags.
   for (const pause of pauses) expect(pause).toBeGreaterThan(990);
   expect(after.refilters).toBeGreaterThan(before.refilters);
+});
+
+test("a refusal is announced, although the picture turns", async () => {
+  const page = await openPage("?sample=dragon_res3&turn=1", { reducedMotion: "no-preference" });
+  await page.locator('#status[data-answer="map"]').waitFor({ state: "attached" });
+  await page
+    .locator("#file")
+    .setInputFiles({ name: "letter.pdf", mimeType: "", buffer: Buffer.from("%PDF-1.7\n\u0000") });
+  const { sentence } = await reached(page, "error");
+  await expect.poll(() => page.locator("#announcement").textContent()).toBe(sentence);
+  expect(sentence).toMatch(/^letter\.pdf cannot be read/);
 });

@@ -114,7 +114,7 @@ export class Status {
 
   /** A map is drawn. The numbers of the last answer stay. Its sentence is not announced: the movement has not stopped. */
   map({ viewpoint, milliseconds }: Mapped): void {
-    clearTimeout(this.#announcing);
+    if (this.#element.dataset["state"] === "ready") clearTimeout(this.#announcing);
     this.#refilters++;
     Object.assign(this.#element.dataset, {
       answer: "map",
