@@ -294,8 +294,8 @@ test("of twenty elements on a page, those in sight are drawn, and the others giv
   });
   const page = await openStranger(elsewhere.address, twenty.join(""));
   const inSight = async (...ids: string[]) => {
-    await expect.poll(async () => (await kept(page)).pictures, { timeout: 20_000 }).toBeLessThan(8);
-    for (const id of ids) await expect.poll(() => colorsOf(page, id), { timeout: 20_000 }).toBeGreaterThan(20);
+    await expect.poll(async () => (await kept(page)).pictures).toBeLessThan(8);
+    for (const id of ids) await expect.poll(() => colorsOf(page, id)).toBeGreaterThan(20);
   };
   for (let i = 0; i < 20; i++) expect(await settledState(page, `e${i}`)).toBe("ready");
   await inSight("e0", "e1");
