@@ -110,7 +110,7 @@ def test_a_forked_process_answers():
     queue = context.Queue()
     child = context.Process(target=_in_child, args=(cloud, queue))
     child.start()
-    assert queue.get(timeout=60) == expected
+    assert queue.get(timeout=300) == expected
     child.join()
     assert child.exitcode == 0
 

@@ -25,7 +25,7 @@ def in_threads(*tasks):
     for thread in threads:
         thread.start()
     for thread in threads:
-        thread.join(timeout=60)
+        thread.join(timeout=300)
     assert not any(thread.is_alive() for thread in threads), "a thread waits for ever"
     if raised:
         raise raised[0]
