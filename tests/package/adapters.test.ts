@@ -338,7 +338,7 @@ describe("several cameras of one filter", () => {
         isSeen[k] = filter.answer === "looks";
       });
       await next();
-      expect(frames).toBeLessThan(3000);
+      expect(frames).toBeLessThan(30_000);
     }
     for (const camera of resting) {
       filter.update(camera);

@@ -173,10 +173,13 @@ describe("a request", () => {
       for (const number of [1, 4, 6]) {
         const octree = await openOctree(POTREE, { fetch: serverOf(faults([number, fault])).fetch });
         const controller = new AbortController();
-        setTimeout(() => controller.abort(), 40);
-        const begun = performance.now();
+        let isLate = false;
+        setTimeout(() => {
+          controller.abort();
+          setTimeout(() => (isLate = true), 5000);
+        }, 40);
         await expect(last(octree, [5, 5, 3], controller.signal)).rejects.toMatchObject({ name: "AbortError" });
-        expect(performance.now() - begun).toBeLessThan(10_000);
+        expect(isLate).toBe(false);
       }
     }
   });
@@ -194,10 +197,10 @@ describe("a request", () => {
     const { fetch, asked } = serverOf(good(town1));
     const blocked = async (url: string, init?: RequestInit) => {
       const answer = new Promise<void>((resolve) => setTimeout(resolve, 30)).then(() => fetch(url, init));
-      for (const until = performance.now() + 120; asked() === 3 && performance.now() < until;);
+      for (const until = performance.now() + 600; asked() === 3 && performance.now() < until;);
       return answer;
     };
-    const octree = await openOctree(POTREE, { fetch: blocked, timeout: 100 });
+    const octree = await openOctree(POTREE, { fetch: blocked, timeout: 500 });
     expect((await last(octree, [5, 5, 3])).exact).toBe(true);
   });
 
