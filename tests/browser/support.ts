@@ -110,7 +110,8 @@ export interface Status {
 
 export async function status(page: Page): Promise<Status> {
   return page.locator("#status").evaluate((element: HTMLElement) => {
-    const { state, answer, viewpoint, inversion, ...numbers } = element.dataset;
+    // What looks take the cloud to be, `data-surface`, may come after the answer.
+    const { state, answer, viewpoint, inversion, surface: _, ...numbers } = element.dataset;
     const values = Object.fromEntries(Object.entries(numbers).map(([name, value]) => [name, Number(value)]));
     return {
       ...values,

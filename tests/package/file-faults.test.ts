@@ -361,7 +361,7 @@ describe("a packing is refused before it takes memory", () => {
     ["many.gltf", meshopt(50, 256 * 20_000), /its compressed views promise 122880000 bytes in \d+/],
     ["a.pcd", pcd(1e7), /it promises 120000000 bytes in \d+; write it without compression/],
   ];
-  it.each(BOMBS)("%s", { timeout: 60_000 }, (name, content, says) => {
+  it.each(BOMBS)("%s", (name, content, says) => {
     write(name, content);
     const entry = (file: string) => JSON.stringify(pathToFileURL(join(root, "dist", file)).href);
     const script = `
