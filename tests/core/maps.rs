@@ -100,12 +100,30 @@ fn a_map_of_looks_hides_hardly_a_point_that_they_show() {
             ahead.map(|x| x * range)
         })
         .collect();
-    let cloud = PointCloud::new(&points).unwrap();
-    let options = Options::looks(3);
+    hides_hardly_wrong(
+        &points,
+        &Options::looks(3),
+        &[[0.1, 0.0, 0.1], [-6.0, 1.0, 0.5]],
+    );
+}
+
+#[test]
+fn with_a_thickness_a_map_hides_a_far_side() {
+    let points = shapes::bumpy(&mut Rng::new(8), 60_000);
+    for thickness in [0.02, 0.1] {
+        let options = Options::looks(3).with_thickness(thickness);
+        hides_hardly_wrong(&points, &options, &[[0.0, 0.7, 4.0], [3.0, 0.5, 0.2]]);
+    }
+}
+
+/// A map hides a tenth of what looks hide, and at most 1 % of what they show.
+#[track_caller]
+fn hides_hardly_wrong(points: &[[f64; 3]], options: &Options, viewpoints: &[[f64; 3]]) {
+    let cloud = PointCloud::new(points).unwrap();
     let [mut hidden, mut found] = [0, 0];
-    for viewpoint in [[0.1, 0.0, 0.1], [-6.0, 1.0, 0.5]] {
-        let seen = cloud.visible_from(viewpoint, &options).unwrap();
-        let map = cloud.visibility_map(viewpoint, &options, &MapOptions::default());
+    for &viewpoint in viewpoints {
+        let seen = cloud.visible_from(viewpoint, options).unwrap();
+        let map = cloud.visibility_map(viewpoint, options, &MapOptions::default());
         let map = map.unwrap();
         let mut wrong = 0;
         for (point, visible) in points.iter().zip(seen.mask()) {

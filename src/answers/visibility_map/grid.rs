@@ -268,20 +268,6 @@ fn may_be_on(side: usize, sphere: &Sphere, viewpoint: [f64; 3]) -> bool {
     z > -sphere.radius && x.abs() <= most && y.abs() <= most
 }
 
-/// Passes the index, the place and the squared length of each corner (x, y, 1) of a window.
-#[inline(always)]
-pub(super) fn each_corner(window: &Window, cell: f64, pass: &mut impl FnMut(usize, [f64; 2], f64)) {
-    let mut place = window.first;
-    for row in 0..window.corners() / (window.columns + 1) {
-        let y = window.y + row as f64 * cell;
-        for column in 0..=window.columns {
-            let x = window.x + column as f64 * cell;
-            pass(place, [x, y], 1.0 + x * x + y * y);
-            place += 1;
-        }
-    }
-}
-
 /// How many numbers a row takes: four are read and written at once, also beside the last corner.
 pub(super) fn padded(columns: usize) -> usize {
     (columns + 4).next_multiple_of(4)

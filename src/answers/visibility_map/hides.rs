@@ -16,7 +16,7 @@ use alloc::vec::Vec;
 use crate::answers::visibility_map::gauge::{Asked, Gauge, MOST};
 use crate::answers::visibility_map::grid::EMPTY;
 use crate::answers::visibility_map::levels::{Champions, Levels};
-use crate::answers::visibility_map::surface::{spread, widen};
+use crate::answers::visibility_map::surface::spread;
 use crate::base::allocation::{OutOfMemory, filled};
 use crate::base::real::square_root;
 
@@ -118,11 +118,7 @@ impl VisibilityMap {
         }
         distances[corners..].fill(0.0);
         if let Asked::Looks(_, depth) = asked {
-            let distances = &mut distances[..corners];
-            if depth.aside > 0.0 {
-                widen(grid, depth.aside, distances)?;
-            }
-            spread(grid, distances)?;
+            spread(grid, depth.aside, &mut distances[..corners])?;
         }
         data.truncate(len);
         let cells = grid.cells_per_unit;

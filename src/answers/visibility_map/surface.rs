@@ -9,11 +9,10 @@
 
 use glam::Vec4;
 
-use crate::answers::visibility_map::gauge::{NONE, NOWHERE};
-use crate::answers::visibility_map::grid::{Grid, each_corner};
+use crate::answers::visibility_map::gauge::NONE;
+use crate::answers::visibility_map::grid::Grid;
 use crate::answers::visibility_map::levels::{Corner, Row, Scale, Triangles};
-use crate::base::allocation::{OutOfMemory, copied, with_capacity};
-use crate::base::real::{larger, smaller};
+use crate::base::allocation::{OutOfMemory, copied};
 
 /// How many longest edges behind its triangle a point is hidden, where a map stands in for looks.
 const EDGES: f32 = 4.0;
@@ -64,9 +63,13 @@ impl Corner<'_> {
     }
 }
 
-/// Takes the distance of each corner a part of the way to those beside it that are larger.
-pub(super) fn spread(grid: &Grid, distances: &mut [f32]) -> Result<(), OutOfMemory> {
+/// Takes the distance of each corner a part of the way to those beside it that are larger. A surface with a thickness shows what
+/// lies at most `aside` beside its outline, where a point seen there is among the six nearest by direction. These are hardly
+/// farther than a cell.
+pub(super) fn spread(grid: &Grid, aside: f64, distances: &mut [f32]) -> Result<(), OutOfMemory> {
     let before = copied(distances)?;
+    let cells = (aside * grid.cells_per_unit) as f32;
+    let count = if aside > 0.0 { 8 } else { 4 };
     for (_, window) in grid.used() {
         let corners = window.first..window.first + window.corners();
         let before = &before[corners.clone()];
@@ -75,64 +78,15 @@ pub(super) fn spread(grid: &Grid, distances: &mut [f32]) -> Result<(), OutOfMemo
             // Positive numbers are in the order of their bits. No processor can guess a branch here.
             let mut most = distance.to_bits();
             // Beyond the end of a row comes another one: a border may hide less.
-            let (left, below) = (at.wrapping_sub(1), at.wrapping_sub(across));
-            for beside in [left, at + 1, below, at + across] {
+            let around = [1, across, across - 1, across + 1];
+            let around = around.map(|by| [at.wrapping_sub(by), at + by]);
+            for &beside in around.as_flattened().iter().take(count) {
                 most = before
                     .get(beside)
                     .map_or(most, |other| most.max(other.to_bits()));
             }
-            *distance += (f32::from_bits(most) - *distance) * BESIDE;
-        }
-    }
-    Ok(())
-}
-
-/// Gives each corner the largest distance of those that are at most `aside` beside it, where its surface is: a surface with
-/// a thickness shows what lies so near to its outline.
-pub(super) fn widen(grid: &Grid, aside: f64, distances: &mut [f32]) -> Result<(), OutOfMemory> {
-    let cell = 1.0 / grid.cells_per_unit;
-    let mut cells = with_capacity(distances.len())?;
-    let shares = distances
-        .iter()
-        .map(|&distance| aside / f64::from(distance));
-    cells.extend(shares);
-    for (_, window) in grid.used() {
-        each_corner(window, cell, &mut |place, _, squared| {
-            cells[place] *= squared / cell;
-        });
-        let corners = window.first..window.first + window.corners();
-        let (own, cells) = (&mut distances[corners.clone()], &cells[corners]);
-        let across = window.columns + 1;
-        let mut wider = copied(own)?;
-        for wide in &mut wider {
-            // Nothing is seen there.
-            if *wide == NOWHERE {
-                *wide = 0.0;
-            }
-        }
-        let most = cells.iter().fold(0.0, |most, &cells| larger(most, cells));
-        let mut width = 0;
-        while (width as f64) < smaller(most, wider.len() as f64) {
-            let before = width as f64;
-            // Without a gap: from [-a, a] to [-a - s, a + s], where s is at most 2a + 1.
-            let step = 2 * width + 1;
-            for by in [step, step * across] {
-                let narrow = copied(&wider)?;
-                for (at, widest) in wider.iter_mut().enumerate() {
-                    for beside in [at.wrapping_sub(by), at + by] {
-                        let other = narrow.get(beside).copied().unwrap_or(0.0);
-                        if other > *widest {
-                            *widest = other;
-                        }
-                    }
-                }
-            }
-            width += step;
-            for ((own, &wide), &cells) in own.iter_mut().zip(&wider).zip(cells) {
-                if cells > before && *own < NOWHERE {
-                    *own = wide;
-                }
-            }
+            let share = (cells / *distance).clamp(BESIDE, 1.0);
+            *distance += (f32::from_bits(most) - *distance) * share;
         }
     }
     Ok(())
