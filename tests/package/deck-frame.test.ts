@@ -95,6 +95,26 @@ it.each([
   });
 });
 
+it.each([
+  ["a first-person view", local, {}],
+  ["an orbit", viewport(new OrbitView({}), { target: [1, 2, 3], rotationX: 40, rotationOrbit: 70, zoom: 5 }), {}],
+  ["degrees in a map", map, { coordinateSystem: LNGLAT }],
+  ["degrees in a first-person view", street, { coordinateSystem: LNGLAT }],
+])("%s: the corners of the picture are the edge of the cone", (_, view, props) => {
+  const frame = new Frame(view, props);
+  frame.take(Float64Array.from([...HOME, 0]));
+  const { from, cone } = frame.seen(view);
+  for (const corner of [
+    [0, 0],
+    [SIZE.width, 0],
+    [0, SIZE.height],
+  ]) {
+    const to = frame.given(view.unproject([...corner, 0.5])).from.map((x, axis) => x - from[axis]!);
+    const cosine = to.reduce((sum, x, axis) => sum + x * cone!.direction[axis]!, 0) / Math.hypot(...to);
+    expect(Math.abs((Math.acos(cosine) * 360) / Math.PI - cone!.angle)).toBeLessThan(0.5);
+  }
+});
+
 it("knows that a map repeats around the world", () => {
   const east = viewport(new MapView({}), { longitude: 179.9999, latitude: 10, zoom: 18 });
   const frame = new Frame(east, { coordinateSystem: METER_OFFSETS, coordinateOrigin: [-179.9999, 10] });

@@ -1,7 +1,7 @@
 import { createIterable, type Viewport } from "@deck.gl/core";
 
 import { allocating, HprError } from "../base/errors.js";
-import { isFloatArray, type Place } from "../query/positions.js";
+import { coneOf, isFloatArray, type Place } from "../query/positions.js";
 
 /** 16 numbers by columns, as deck.gl's `modelMatrix`. */
 export type Matrix = ArrayLike<number>;
@@ -236,10 +236,12 @@ export class Frame {
     this.#requireConvertible(viewport);
     const [m, projection] = [viewport.viewMatrixInverse, viewport.projectionMatrix];
     const isDirection = projection[15] !== 0;
+    const matrix = this.#isInDegrees ? undefined : this.#matrix;
+    const inData = (to: number[], isTurned: boolean) => (matrix === undefined ? to : unapplied(matrix, to, isTurned));
     // The third axis of a camera points backwards.
-    const from = isDirection ? [-m[8]!, -m[9]!, -m[10]!] : this.#eye(viewport);
-    const isMoved = this.#matrix !== undefined && !this.#isInDegrees;
-    return { from: isMoved ? unapplied(this.#matrix, from, isDirection) : from, isDirection };
+    const along = inData([-m[8]!, -m[9]!, -m[10]!], true);
+    if (isDirection) return { from: along, isDirection };
+    return { from: inData(this.#eye(viewport), false), isDirection, cone: coneOf(projection, along) };
   }
 
   #eye(viewport: Viewport): number[] {

@@ -269,16 +269,32 @@ export function widened(cone: Directions | undefined): Directions | undefined {
   return cone && { ...cone, angle: Math.min(cone.angle + 2 * TURNS, 360) };
 }
 
+/**
+ * The directions of the picture of a camera that looks `along`, by its projection, by columns. Undefined where that tells no
+ * opening.
+ */
+export function coneOf(projection: ArrayLike<number>, along: readonly number[]): Directions | undefined {
+  const p = projection;
+  // The corners of the picture are the directions (x, y, -1) in the camera's space.
+  const [x, y] = [(1 + Math.abs(p[8]!)) / p[0]!, (1 + Math.abs(p[9]!)) / p[5]!];
+  const angle = (2 * Math.atan(Math.hypot(x, y)) * 180) / Math.PI;
+  const length = Math.hypot(...along);
+  return angle > 0 && length > 0 ? { direction: along.map((part) => part / length), angle } : undefined;
+}
+
 /** Whether `b` has directions that are not in the {@link widened} `a`. */
 export function isTurned(a: Directions | undefined, b: Directions | undefined): boolean {
   if (a === undefined || b === undefined) return a !== undefined;
-  const cosine = a.direction.reduce((sum, x, axis) => sum + x * b.direction[axis]!, 0);
+  const cosine = cosineOf(a.direction, b.direction);
   return (Math.acos(Math.min(Math.max(cosine, -1), 1)) * 180) / Math.PI + (b.angle - a.angle) / 2 > TURNS;
 }
 
 /** Whether a picture from `a` is too different to be shown at `b`. */
 export function isFarFrom(a: Place, b: Place, center: readonly number[]): boolean {
   const [p, q] = [a, b].map(({ from }) => from.map((x, axis) => x - center[axis]!)) as [number[], number[]];
-  const cosine = p.reduce((sum, x, axis) => sum + x * q[axis]!, 0) / (Math.hypot(...p) * Math.hypot(...q));
-  return a.isDirection !== b.isDirection || cosine < STAND_IN;
+  return a.isDirection !== b.isDirection || cosineOf(p, q) < STAND_IN;
+}
+
+function cosineOf(a: readonly number[], b: readonly number[]): number {
+  return a.reduce((sum, x, axis) => sum + x * b[axis]!, 0) / (Math.hypot(...a) * Math.hypot(...b));
 }

@@ -3,7 +3,7 @@ import type { Camera, Matrix4, Object3D } from "three";
 import { describe, HprError } from "../base/errors.js";
 import { type FollowSettings, REST, type Stage, stagesFor } from "../follow/options.js";
 import { FollowedView } from "../follow/view.js";
-import { type Directions, type Place, readViewpoint, type Viewpoint } from "../query/positions.js";
+import { coneOf, type Place, readViewpoint, type Viewpoint } from "../query/positions.js";
 import type { VisibilityOptions } from "../query/view-options.js";
 
 /** One camera's view of a cloud, and how far its answers have come. */
@@ -174,19 +174,9 @@ function placeOf(
   const from = inSpace(points, [c[12], c[13], c[14]]).map((x, axis) => x + origin[axis]!);
   const m = points.matrixWorld.elements;
   const reach = [12, 13, 14].reduce((sum, i) => sum + Math.abs(c[i]!) + Math.abs(m[i]!), 0);
-  const place = { from, isDirection, cone: coneOf(camera, points) };
-  return { place, rounding: (ROUNDING * reach) / uniformScale(m) };
-}
-
-/** The directions of a camera's picture. Undefined where the projection tells no opening. */
-function coneOf({ matrixWorld: { elements: c }, projectionMatrix }: Camera, points: Space): Directions | undefined {
-  const p = projectionMatrix.elements;
-  // The corners of the picture are the directions (x, y, -1) in the camera's space.
-  const [x, y] = [(1 + Math.abs(p[8])) / p[0], (1 + Math.abs(p[9])) / p[5]];
-  const angle = (2 * Math.atan(Math.hypot(x, y)) * 180) / Math.PI;
   const along = inSpace(points, [-c[8], -c[9], -c[10]], true);
-  const length = Math.hypot(...along);
-  return angle > 0 && length > 0 ? { direction: along.map((part) => part / length), angle } : undefined;
+  const place = { from, isDirection, cone: coneOf(camera.projectionMatrix.elements, along) };
+  return { place, rounding: (ROUNDING * reach) / uniformScale(m) };
 }
 
 /**
