@@ -229,6 +229,7 @@ describe("a filter", () => {
         mode: seed % 2 === 0 ? "dim" : "hide",
         stale: seed % 3 === 0 ? "all" : "keep",
       });
+      filter.addEventListener("error", ({ error }) => expect(error).toMatchObject({ code: "non-finite" }));
       const left: [geometry: Scene["geometry"], drawn: number[]][] = [];
       /** The user's own index and draw range. */
       let own = { index: null as number[] | null, start: 0, count: Infinity };
@@ -247,7 +248,7 @@ describe("a filter", () => {
         (geometry) => setOwn(geometry, { start: upTo(9), count: 1 + upTo(300) }),
         (geometry) => geometry.setAttribute("position", made(5 + upTo(400))),
         ({ attributes }) => {
-          attributes["position"]!.setXYZ(0, random(), random(), 1);
+          attributes["position"]!.setXYZ(0, random(), random(), upTo(2) ? 1 : NaN);
           attributes["position"]!.needsUpdate = true;
         },
         (geometry) => {
@@ -266,12 +267,18 @@ describe("a filter", () => {
         if (random() < 0.6) filter.update(seen);
         if (step % 5 > 0) continue;
         Object.assign(filter, { enabled: true, frozen: false });
+        const position = points.geometry.attributes["position"]!;
+        position.setZ(0, position.getZ(0) || 1);
+        position.needsUpdate = true;
         // No later frame comes than this one.
         filter.update(seen);
+        const place = new THREE.Vector3(random() * 2 - 1, random() * 2 - 1, random() * 2 - 1);
+        const sees = await filter.sees(place);
         await expect.poll(() => filter.settled).toBe(true);
         const ids = [...new Set(numbers())];
-        const { array } = points.geometry.attributes["position"]!;
-        const visible = visibleFrom(seen.position.toArray(), pointsAt(array as Float32Array, ids));
+        const present = pointsAt(position.array as Float32Array, ids);
+        expect(sees).toBe(new adapter.PointCloud(present).sees(seen.position, place.toArray())[0] === 1);
+        const visible = visibleFrom(seen.position.toArray(), present);
         expect(drawn(points.geometry)).toEqual(visible.map((i) => ids[i]));
         expect(filter.visibleCount).toBe(visible.length);
       }

@@ -283,17 +283,28 @@ export abstract class CameraFilter<Events extends FilterEvents> extends Sender<E
     const asked = readViewpoint(place, 3, "place") as [number, number, number];
     const seat = this.cameras.last?.place;
     if (seat === undefined || seat.isDirection) {
-      throw new HprError("option", "sees() needs an update with a perspective camera before");
+      throw new HprError("option", "sees() needs an update with a perspective camera");
     }
-    while (this.cloud === undefined && !this.#isDisposed) {
-      if (this.#refusal !== undefined) throw this.#refusal;
-      await new Promise<void>((turn) => this.#turns.push(turn));
-    }
-    if (this.cloud === undefined) throw disposed();
-    const { scores: _, ...options } = this.settings.stages.at(-1)!.options;
+    const { options } = this.settings.stages.at(-1)!;
     const { origin = [0, 0, 0] } = this.settings;
     const target = inSpace(this.#object, asked).map((value, axis) => value + origin[axis]!);
-    return (await this.cloud.sees(seat.from, target, options))[0] === 1;
+    for (;;) {
+      if (this.#isDisposed) throw disposed();
+      const { cloud } = this;
+      try {
+        if (cloud) return (await cloud.sees(seat.from, target, options))[0] === 1;
+      } catch (error) {
+        // The points have changed, and another cloud takes its place.
+        if (cloud === this.cloud) throw error;
+        continue;
+      }
+      if (!this.follower.isWaiting && !this.isStale) {
+        if (this.#refusal !== undefined) throw this.#refusal;
+        // Without points, nothing hides the place.
+        return true;
+      }
+      await new Promise<void>((turn) => this.#turns.push(turn));
+    }
   }
 
   /** Draws everything as it was before, and frees the memory of the cloud. May be called twice. */

@@ -110,7 +110,7 @@ export class HiddenPointFilter extends CameraFilter<HiddenPointFilterEvents> {
 
   /** @internal */
   protected override get cloud(): Cloud | undefined {
-    return this.#cloud;
+    return this.isStale ? undefined : this.#cloud;
   }
 
   /** @internal */
@@ -121,8 +121,9 @@ export class HiddenPointFilter extends CameraFilter<HiddenPointFilterEvents> {
   /** @internal */
   protected override next(): Round | undefined {
     if (this.isStale) return this.#preparing();
-    const [cloud, camera] = [this.#cloud, this.enabled ? this.cameras.due(this.frozen) : undefined];
-    if (cloud === undefined || camera === undefined) return undefined;
+    const camera = this.#cloud && this.enabled ? this.cameras.due(this.frozen) : undefined;
+    // Points that were refused may have changed meanwhile.
+    if (camera === undefined) return this.drawing.drawn.isUnchanged ? undefined : this.#preparing();
     /** An answer about other points is left, one about former positions is drawn. No later frame may come that asks again. */
     const isLeft = () => {
       const { isSame, isUnchanged } = this.drawing.drawn;
@@ -131,7 +132,7 @@ export class HiddenPointFilter extends CameraFilter<HiddenPointFilterEvents> {
       return isOther;
     };
     return this.view(
-      cloud,
+      this.#cloud!,
       camera,
       (answer) => {
         if (isLeft()) return undefined;
