@@ -89,6 +89,24 @@ describe("LAS", () => {
   });
 });
 
+it("takes no scale from points without a position", async () => {
+  const kept = [500000.123456, 5400000.25, 7];
+  for (const lost of [[], [NaN, 0, 0], [Infinity, -Infinity, 0], [0, 0, NaN]]) {
+    for (const whole of [[], kept]) {
+      const cloud = { positions: Float64Array.from([...whole, ...lost]) };
+      expect((await read(writeCloud(cloud, "ply"))).positions).toEqual(cloud.positions);
+      const las = read(writeCloud(cloud, "las"));
+      if (whole.length === 0) {
+        await expect(las).rejects.toThrow("it has no points");
+        continue;
+      }
+      const { positions: found } = await las;
+      expect(found).toHaveLength(3);
+      expect([...found].filter((value, i) => Math.abs(value - whole[i]!) > 1e-9)).toEqual([]);
+    }
+  }
+});
+
 it("takes some of the points, and refuses what is no cloud", async () => {
   const some = await read(writeCloud({ positions, colors }, "ply", { indices: Uint32Array.of(2, 0) }));
   expect([...some.colors!]).toEqual([128, 64, 32, 255, 0, 10]);

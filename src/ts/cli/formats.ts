@@ -228,10 +228,12 @@ export function converted(
 }
 
 /** In words: what a file in another format lacks. */
-export function lost({ las, crs, leftOut = [], unread = [], positions }: PointFile, ending: string): string[] {
+export function lost(file: PointFile, ending: string): string[] {
+  const { las, crs, leftOut = [], unread = [], positions } = file;
   const said = [...leftOut, ...unread];
   if (ending === ".las") {
-    const scale = finestScale(positions).scale[0];
+    const all = Uint32Array.from({ length: positions.length / 3 }, (_, i) => i);
+    const scale = finestScale(contentOf(file, "las", all).content).scale[0];
     // A number near enough that its decimal digits are the same.
     const isKept = (value: number) =>
       !(Math.abs(Math.round(value / scale) * scale - value) > 4 * Number.EPSILON * Math.abs(value));

@@ -27,19 +27,7 @@ const OWN_NAMES = new Set([3, 8].flatMap((format) => layoutOf(format)!.places.ma
 const LONGEST_NAME = 31;
 /** How readers call what each point has. */
 const STANDARD = [
-  ...[
-    "x",
-    "y",
-    "z",
-    "flagbyte",
-    "bitfields",
-    "synthetic",
-    "keypoint",
-    "withheld",
-    "overlap",
-    "scanangle",
-    "scananglerank",
-  ],
+  ...["x", "y", "z", "flagbyte", "bitfields", "synthetic", "keypoint", "withheld", "overlap", "scananglerank"],
   ...["scandirectionflag", "gpstime", "pointsourceid", "nir", "rawclassification", ...[...OWN_NAMES].map(bare)],
 ];
 
@@ -66,7 +54,7 @@ export function* lasParts(
       ? 7
       : 6;
   const layout = layoutOf(format)!;
-  const { scale, offset } = las ?? finestScale(positions);
+  const { scale, offset } = las ?? finestScale({ positions, indices });
   const named = new Map(fields.map((field) => [nameOf(field.name), field]));
   const taken = new Set<string>();
   const writers = layout.places.flatMap((place): Write[] => {
@@ -212,16 +200,21 @@ function extraRecord(extras: readonly Extra[]): Uint8Array<ArrayBuffer> {
   return record;
 }
 
-/** The finest scale with which the whole cloud fits, at most 10⁻⁹ of a unit. The offset is a whole number. */
-export function finestScale(positions: Content["positions"]): Pick<LasSource, "scale" | "offset"> {
-  const low = [Infinity, Infinity, Infinity];
-  const high = [-Infinity, -Infinity, -Infinity];
-  positions.forEach((value: number, i: number) => {
-    if (value < low[i % 3]!) low[i % 3] = value;
-    if (value > high[i % 3]!) high[i % 3] = value;
-  });
-  const offset = low.map((value, axis) => Math.floor(value / 2 + high[axis]! / 2)) as [number, number, number];
-  const reach = Math.max(...low.map((value, axis) => high[axis]! - value)) / 2 + 1;
+/** The finest scale with which these points fit, at most 10⁻⁹ of a unit. The offset is a whole number. */
+export function finestScale({
+  positions,
+  indices,
+}: Pick<Content, "positions" | "indices">): Pick<LasSource, "scale" | "offset"> {
+  const ends = [0, 1, 2].map(() => [Infinity, -Infinity] as [low: number, high: number]);
+  for (const i of indices) {
+    ends.forEach((end, axis) => {
+      end[0] = Math.min(end[0], positions[3 * i + axis]!);
+      end[1] = Math.max(end[1], positions[3 * i + axis]!);
+    });
+  }
+  // Without a point, it is 0.
+  const offset = ends.map(([low, high]) => Math.floor(low / 2 + high / 2) || 0) as [number, number, number];
+  const reach = Math.max(0, ...ends.map(([low, high]) => high - low)) / 2 + 1;
   const digits = Math.min(9, Math.floor(Math.log10(MOST_STEPS / reach)));
   // Written as a text, so that the scale is the number nearest to a power of ten.
   const step = Number(`1e${-digits}`);
