@@ -46,6 +46,16 @@ pub(crate) fn one_by_one(v: DVec3) -> DVec3 {
     v * 1.0
 }
 
+/// From 0 at the first number to 1 at the second one; 0 for NaN.
+pub(crate) fn ramp(number: f64, [start, full]: [f64; 2]) -> f64 {
+    let share = (number - start) / (full - start);
+    if share > 0.0 {
+        smaller(share, 1.0)
+    } else {
+        0.0
+    }
+}
+
 /// x where it is positive, else 0. WebAssembly engines make a branch of a choice between floats,
 /// and no processor can guess it, so the sign bit itself clears the other bits.
 #[inline]

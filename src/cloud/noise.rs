@@ -7,8 +7,9 @@
 use alloc::vec::Vec;
 use glam::DVec3;
 
+use crate::base::FULL;
 use crate::base::allocation::{OutOfMemory, filled, with_capacity};
-use crate::base::real::{power_of_two_below, square_root};
+use crate::base::real::{power_of_two_below, ramp, smaller, square_root};
 use crate::base::sort::{Keyed, percentile};
 use crate::cloud::neighbors::{Nearest, Neighbors};
 use crate::cloud::plane::off_plane;
@@ -26,12 +27,12 @@ const TO_DEVIATION: f64 = 1.15;
 /// off them as off one quadric. Clean sheets have 0, scanned surfaces and all kinds of noise 0.34 and more, scans without
 /// noise that lie beside each other 0.13. Half of it counts if it is even and [alike](MEASURED), which the corners of clean meshes are not.
 pub(crate) const NOISY: f64 = 0.075;
-/// Rough surfaces, as of plants, grow by more than this from the small to the large surroundings, at the
+/// Rough surfaces, as of plants, grow by so much from the small to the large surroundings, at the
 /// median place: by 1.32 to 1.58. Layers have 1.14 to 1.24, noise less.
-const ROUGH: f64 = 1.28;
-/// Noise is even if this ratio of a low to a very low percentile is not reached. Normal noise gives
-/// 1.29, noisy objects at most 1.57, scans that overlap 1.89 and more.
-const EVEN: f64 = 1.8;
+const ROUGH: [f64; 2] = [1.24, 1.32];
+/// Noise is even below the first ratio of a low to a very low percentile, and in layers above the second. Normal noise
+/// gives 1.29, noisy objects at most 1.57, scans that overlap 1.89 and more.
+const EVEN: [f64; 2] = [1.6, 1.9];
 const VERY_LOW: usize = 5;
 /// Points that lie off less than this, in spacings, are only rounded. Scanners give 0.007 and more.
 const EXACT: f64 = 0.002;
@@ -43,7 +44,7 @@ const MOST: f64 = 0.53;
 const PLANES: [usize; 2] = [8, 24];
 /// A surface is measured by a scanner if points are about as far off their planes in the small
 /// surroundings as in the large ones, by this share. Curved surfaces without noise have 0.2 to 0.5.
-const MEASURED: f64 = 0.6;
+const MEASURED: [f64; 2] = [0.5, 0.7];
 /// The gap of one hull's radius is the median spacing ÷ this for a scan, and once more for overlapping
 /// scans. For even noise it is ÷ (1 + this × its standard deviation in spacings). The gap of clean surfaces heeds
 /// outliers and the sparse places of a scan.
@@ -87,14 +88,20 @@ pub(crate) struct Noise {
     pub usual: f64,
     /// The noise in spacings, whether it is noise or not.
     pub ratio: f64,
-    pub surface: Surface,
-    /// Whether points are off their quadrics everywhere alike, and by more than roundings.
-    is_measured: bool,
-    /// Whether it grows with the surroundings, as what is rough does, and layers do not.
-    pub is_rough: bool,
-    /// What takes the place of the gap between samples where a surface was measured by a scanner.
-    pub gap: Option<f64>,
-    /// The distance from a clean surface to the next one behind or before it; else infinite.
+    /// How far it is noisy and how far it is layered, from 0 to 1 together. A switch would change answers with the
+    /// points that are sampled.
+    pub shares: [f64; 2],
+    /// How far the widening counts: less where points are off their quadrics everywhere alike, by more than roundings.
+    wide: f64,
+    /// How far it grows with the surroundings, as what is rough does, and layers do not.
+    pub rough: f64,
+    /// The noise beyond that of clean clouds, in the cloud's units.
+    pub beyond_clean: f64,
+    /// How far a surface counts as measured by a scanner.
+    pub scanned: f64,
+    /// What takes the place of the gap between samples where it does.
+    gap: f64,
+    /// The distance from a clean surface to the next one behind or before it; infinite where it is measured.
     pub next_sheet: f64,
 }
 
@@ -108,62 +115,81 @@ impl Noise {
         let longest = surface::longest(&spacings)?;
         let usual = low(&spacings, 50)?;
         let cut = surface::cut_off(spacings, longest);
-        let is_even = measured.unevenness()? < EVEN;
-        let (surface, ratio) = measured.surface(points.len(), is_even)?;
+        let apart = ramp(measured.unevenness()?, EVEN);
+        let [ratio, least, share] = measured.noise(points.len(), apart)?;
+        let beyond = (ratio - least) * usual;
+        let is_exact = low(&measured.ratios[0], LOW)? <= EXACT;
         let mut noise = Self {
             spacing: surface::mean(&cut),
             usual,
             ratio,
-            surface,
-            is_measured: is_even && low(&measured.ratios[0], LOW)? > EXACT,
-            is_rough: measured.is_rough()?,
-            gap: None,
+            shares: [(1.0 - apart) * share, apart * share],
+            wide: if is_exact { 1.0 } else { apart },
+            // The module of the operator alone has no looks.
+            rough: if FULL { measured.rough()? } else { 0.0 },
+            beyond_clean: if beyond > 0.0 && beyond.is_finite() {
+                beyond
+            } else {
+                0.0
+            },
+            scanned: 0.0,
+            gap: usual,
             next_sheet: f64::INFINITY,
             samples: Vec::new(),
         };
-        let is_uneven = low(&cut, 90)? >= EVEN * usual;
-        let looser = match surface {
-            Surface::Noisy if ratio > NOISY => 1.0 + SCANNED * noise.deviation() / noise.spacing,
-            Surface::Layered => SCANNED * SCANNED,
-            _ if is_uneven && measured.is_alike()? => SCANNED,
-            _ => 1.0,
-        };
-        if looser > 1.0 {
-            noise.gap = Some(usual / looser);
-        } else if surface == Surface::Clean {
-            noise.next_sheet = next_sheet(neighbors, &measured.samples, usual)?;
+        let uneven = ramp(low(&cut, 90)? / usual, EVEN);
+        let unevenly = uneven * measured.alike()?;
+        noise.scanned = 1.0 - (1.0 - share) * (1.0 - unevenly);
+        if noise.scanned > 0.0 {
+            let [even, layered] = noise.shares;
+            let of_noise = libm::pow(1.0 + SCANNED * deviation(ratio), even);
+            noise.gap /= of_noise * libm::pow(SCANNED, 2.0 * layered + (1.0 - share) * unevenly);
+        }
+        if noise.scanned < 1.0 {
+            let next = next_sheet(neighbors, &measured.samples, usual)?;
+            noise.next_sheet = next / (1.0 - noise.scanned);
         }
         noise.samples = measured.samples;
         Ok(noise)
     }
 
+    pub(crate) fn surface(&self) -> Surface {
+        let [noisy, layered] = self.shares;
+        if noisy + layered == 0.0 {
+            Surface::Clean
+        } else if noisy > layered {
+            Surface::Noisy
+        } else {
+            Surface::Layered
+        }
+    }
+
     /// One standard deviation, in the cloud's units. It is 0 where nothing tells of noise.
     pub(crate) fn deviation(&self) -> f64 {
-        match self.surface {
+        match self.surface() {
             Surface::Clean => 0.0,
             Surface::Layered => self.ratio * self.usual,
-            Surface::Noisy => {
-                let share = self.ratio / MOST;
-                let cube = share * share * share;
-                self.ratio * (1.0 + cube * cube) * self.spacing
-            }
+            Surface::Noisy => deviation(self.ratio) * self.spacing,
         }
+    }
+
+    /// The gap of one hull's radius. `gap` is that of a clean surface.
+    pub(crate) fn gap(&self, gap: f64) -> f64 {
+        gap * libm::pow(smaller(self.gap / gap, 1.0), self.scanned)
     }
 
     /// How many times wider gaps count. Between the rings of a scanner there is surface, and it is seen from its station.
     /// Parts made of triangles are even nowhere: by 6 times and more.
     pub(crate) fn widening(&self, statistics: &Statistics) -> f64 {
-        if self.is_measured {
-            1.0
-        } else {
-            statistics.widening
-        }
+        libm::pow(statistics.widening, self.wide)
     }
+}
 
-    /// The noise beyond that of clean clouds, in the cloud's units.
-    pub(crate) fn beyond_clean(&self) -> f64 {
-        ((self.ratio - NOISY) * self.usual).max(0.0)
-    }
+/// One standard deviation of even noise, in spacings.
+fn deviation(ratio: f64) -> f64 {
+    let share = ratio / MOST;
+    let cube = share * share * share;
+    ratio * (1.0 + cube * cube)
 }
 
 /// What does not grow of the distances off the quadric: q² = noise² + curvature·k, for k and 2k
@@ -258,39 +284,44 @@ impl Measured {
         })
     }
 
-    /// What the cloud is, and its noise in spacings. A sensor's noise is the same everywhere. Registered
-    /// scans lie beside each other only where they overlap, and what is rough is so in places: there the
-    /// median counts.
-    fn surface(&self, count: usize, is_even: bool) -> Result<(Surface, f64), OutOfMemory> {
+    /// The noise in spacings, what counts as none, and how far the rest counts. A sensor's noise is the same everywhere.
+    /// Registered scans lie beside each other only where they overlap, and what is rough is so in places: there the
+    /// median counts. `apart` is how far they are in layers.
+    fn noise(&self, count: usize, apart: f64) -> Result<[f64; 3], OutOfMemory> {
         let [small, large] = &self.ratios;
         let everywhere = TO_DEVIATION * constant(low(small, LOW)?, low(large, LOW)?);
         let mut constants = with_capacity(self.samples.len())?;
         constants.extend(self.samples.iter().map(|sample| sample.noise));
         let in_places = TO_DEVIATION * low(&constants, 50)?;
-        let (surface, ratio, is_noise) = if is_even {
-            let least = if self.is_alike()? { 0.5 * NOISY } else { NOISY };
-            (Surface::Noisy, everywhere, everywhere > least)
-        } else {
-            // Clouds of few points on curved bodies have more at their edges.
-            let least = NOISY * (1.0 + SAMPLES as f64 / count as f64);
-            (Surface::Layered, in_places, in_places > least)
-        };
+        // Clouds of few points on curved bodies have more at their edges.
+        let leasts = [
+            1.0 - 0.5 * self.alike()?,
+            1.0 + SAMPLES as f64 / count as f64,
+        ];
+        let between = |[even, layered]: [f64; 2]| even * (1.0 - apart) + layered * apart;
+        let ratio = between([everywhere, in_places]);
+        let least = NOISY * between(leasts);
         let are_sheets = percentile(&self.sheets, LOW)?.is_some_and(|share| share <= NOISY);
-        let is_clean = !is_noise || ratio == f64::INFINITY || are_sheets;
-        Ok((if is_clean { Surface::Clean } else { surface }, ratio))
+        let is_clean = are_sheets || !ratio.is_finite();
+        let share = if is_clean {
+            0.0
+        } else {
+            ramp(ratio, [least, 2.0 * least])
+        };
+        Ok([ratio, least, share])
     }
 
-    /// Whether points are farther off their quadrics in large surroundings than layers are.
-    fn is_rough(&self) -> Result<bool, OutOfMemory> {
+    /// How far points are farther off their quadrics in large surroundings than layers are.
+    fn rough(&self) -> Result<f64, OutOfMemory> {
         let [small, large] = &self.ratios;
         let mut growth = with_capacity(small.len())?;
         growth.extend(small.iter().zip(large).map(|(small, large)| large / small));
-        Ok(low(&growth, 50)? >= ROUGH)
+        Ok(ramp(low(&growth, 50)?, ROUGH))
     }
 
-    /// Whether points are about as far off their planes in small surroundings as in large ones.
-    fn is_alike(&self) -> Result<bool, OutOfMemory> {
-        Ok(low(&self.planes, 50)? >= MEASURED)
+    /// How far points are about as far off their planes in small surroundings as in large ones.
+    fn alike(&self) -> Result<f64, OutOfMemory> {
+        Ok(ramp(low(&self.planes, 50)?, MEASURED))
     }
 
     /// The low percentile of the distances ÷ the very low one, in spacings or in units, whichever

@@ -10,7 +10,7 @@ use crate::base::allocation::{OutOfMemory, filled};
 use crate::base::error::Error;
 use crate::base::threads::Once;
 use crate::cloud::blocks::Blocks;
-use crate::cloud::noise::{Noise, Surface};
+use crate::cloud::noise::Noise;
 use crate::cloud::points::{Given, Points, Position, checked_len, is_finite};
 use crate::cloud::selection::Region;
 use crate::cloud::sequence::Sequence;
@@ -60,7 +60,8 @@ pub(crate) struct Kept {
     pub sample: Once<Arc<Sampled>>,
     pub statistics: Once<Statistics>,
     pub noise: Once<Arc<Noise>>,
-    pub smooth: Once<Arc<Smooth>>,
+    /// Its points moved all the way, and as far as the cloud is noisy.
+    pub smooth: [Once<Arc<Smooth>>; 2],
     /// The cloud of the points that a mask marks, with one byte for each index.
     #[cfg(feature = "lite")]
     pub masked: Option<(Vec<u8>, Box<PointCloud>)>,
@@ -70,7 +71,8 @@ pub(crate) struct Kept {
 #[derive(Clone)]
 pub(crate) struct Survey {
     pub noise: Arc<Noise>,
-    pub surface: Surface,
+    /// How far it counts as noisy and as layered.
+    pub shares: [f64; 2],
     /// The cloud without its noise, if the looks are at that.
     pub smooth: Option<Arc<Smooth>>,
 }

@@ -133,7 +133,7 @@ pub(crate) fn automatic(
 /// behind each other, and only a larger sphere shows them. What lies d behind a clean surface is hidden only by
 /// R < d·r²/s² (paper §4).
 pub(crate) fn effective_gap(statistics: &Statistics, noise: &Noise) -> f64 {
-    let gap = statistics.gap.min(noise.gap.unwrap_or(f64::INFINITY)) * noise.widening(statistics);
+    let gap = noise.gap(statistics.gap) * noise.widening(statistics);
     let bound = bend(statistics.count, noise.next_sheet) * noise.usual * noise.usual;
     larger(gap, bound)
 }

@@ -1,7 +1,7 @@
 //! What the survey takes a cloud for, and how well its views are then, in both shares: thin shapes are not noisy,
 //! and scans are not clean. Everything is made of boxes, so the truth is a ray among boxes.
 
-use hidden_point_removal::{Options, PointCloud, Surface};
+use hidden_point_removal::{Options, PointCloud, Radius, Surface};
 
 use crate::common::rng::Rng;
 use crate::test;
@@ -390,6 +390,35 @@ fn a_cloud_that_moves_or_turns_has_the_same_views() {
                     "shape {shape}, change {number}: R {radius} and {other}, {differ} points"
                 );
             }
+        }
+    }
+}
+
+/// Points by chance on two squares, off them by chance: by up to `off` spacings, on one half by `share` of that only.
+fn rough_squares([off, share]: [f64; 2]) -> Vec<Place> {
+    let mut rng = Rng::new(5);
+    let place = |k: usize| {
+        let [x, y] = [(); 2].map(|()| rng.between(-1.0, 1.0));
+        let most = off * 0.03 * if x > 0.0 { share } else { 1.0 };
+        [x, y, rng.between(-most, most) - 0.2 * (k % 2) as f64]
+    };
+    (0..8192).map(place).collect()
+}
+
+#[test]
+fn no_radius_switches_as_noise_grows_or_gathers() {
+    for sweep in [
+        |k: f64| [0.04 * k, 1.0],
+        |k| [0.04 * k, 0.3],
+        |k| [0.6, 0.4 - 0.025 * k],
+    ] {
+        let mut before = None;
+        for k in 0..16 {
+            let cloud = PointCloud::new(&rough_squares(sweep(f64::from(k)))).unwrap();
+            let chosen = cloud.auto_radius([0.3, 0.2, 2.0], Radius::Auto).unwrap();
+            let step = before.map_or(0.0, |before: f64| (chosen.radius / before).ln().abs());
+            assert!(step < 0.25, "{k}: {before:?}, then {chosen:?}");
+            before = Some(chosen.radius);
         }
     }
 }

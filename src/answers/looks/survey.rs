@@ -16,7 +16,8 @@ use crate::cloud::point_cloud::{PointCloud, Smooth, Survey};
 use crate::cloud::sheets::NEAR;
 
 impl Smooth {
-    fn of(cloud: &PointCloud) -> Result<Self, Error> {
+    /// `share` is how far the points move.
+    fn of(cloud: &PointCloud, share: f64) -> Result<Self, Error> {
         let most = cloud.sequence.points.len().saturating_sub(1);
         let [_, plane] = NEAR;
         let neighbors = plane.min(most).max(1);
@@ -28,6 +29,20 @@ impl Smooth {
         while noise.ratio > least && before - noise.ratio > least {
             before = noise.ratio;
             moved = moved.denoised(neighbors)?;
+            noise = moved.known_noise()?;
+        }
+        if share < 1.0 {
+            let mut places = filled(cloud.sequence.points.len(), [0.0; 3])?;
+            let order = moved.places()?;
+            for (k, place) in places.iter_mut().enumerate() {
+                let from = cloud.sequence.points.get(k);
+                let to = moved
+                    .sequence
+                    .points
+                    .get(order[cloud.sequence.indices_of(k)[0] as usize] as usize);
+                *place = core::array::from_fn(|axis| from[axis] + share * (to[axis] - from[axis]));
+            }
+            moved = cloud.moved(&places)?;
             noise = moved.known_noise()?;
         }
         Ok(Self {
@@ -77,7 +92,7 @@ impl PointCloud {
     /// # Errors
     /// [`Error::OutOfMemory`].
     pub fn surface(&self) -> Result<Surface, Error> {
-        Ok(self.known_noise()?.surface)
+        Ok(self.known_noise()?.surface())
     }
 
     /// What looks with this surface and thickness know of the cloud, if they need it.
@@ -91,20 +106,23 @@ impl PointCloud {
             return Ok(None);
         }
         let noise = self.known_noise()?;
-        let surface = match (surface, thickness) {
-            (Some(surface), _) => surface,
-            (None, Some(_)) => Surface::Layered,
-            (None, None) => self.surface()?,
+        let shares = match (surface, thickness) {
+            (Some(Surface::Clean), _) => [0.0, 0.0],
+            (Some(Surface::Noisy), _) => [1.0, 0.0],
+            (Some(Surface::Layered), _) | (None, Some(_)) => [0.0, 1.0],
+            (None, None) => noise.shares,
         };
+        let [moved, _] = shares;
         let can_move = self.sequence.points.len() > 1;
-        let smooth = if surface == Surface::Noisy && can_move {
-            Some(self.kept.smooth.get(|| Smooth::of(self).map(Arc::new))?)
+        let smooth = if moved > 0.0 && can_move {
+            let kept = &self.kept.smooth[usize::from(moved < 1.0)];
+            Some(kept.get(|| Smooth::of(self, moved).map(Arc::new))?)
         } else {
             None
         };
         Ok(Some(Survey {
             noise,
-            surface,
+            shares,
             smooth,
         }))
     }

@@ -13,10 +13,10 @@ use glam::DVec3;
 
 use crate::answers::looks::rays::{Projection, Ray, Rays};
 use crate::base::allocation::{OutOfMemory, with_capacity};
-use crate::base::real::{larger, square_root};
+use crate::base::real::{larger, ramp, square_root};
 use crate::base::sort::percentile;
 use crate::cloud::blocks::FANOUT;
-use crate::cloud::noise::{Noise, Surface};
+use crate::cloud::noise::Noise;
 use crate::cloud::point_cloud::{PointCloud, Survey};
 use crate::cloud::points::Points;
 use crate::cloud::spatial::Bounds;
@@ -91,7 +91,7 @@ impl Tuning {
             .smooth
             .as_ref()
             .map_or(measured, |smooth| &smooth.noise);
-        let is_moved = survey.smooth.is_some();
+        let [moved, layered] = survey.shares;
         let range = match projection {
             Projection::Perspective(viewpoint) => Some(Range {
                 noise,
@@ -104,30 +104,24 @@ impl Tuning {
             Some(range) => range.growth(&cloud.sequence.points)?,
             None => (0.0, 0.0),
         };
-        let is_layered = survey.surface == Surface::Layered;
         // What is rough shows its depth only from where it was measured.
-        let counts = if measured.is_rough { ranged } else { 1.0 };
-        let of_layers = if is_layered {
-            LAYERS * counts * measured.beyond_clean()
-        } else {
-            0.0
-        };
+        let counts = 1.0 - measured.rough * (1.0 - ranged);
+        // Squared, as points that also move are less far off.
+        let of_layers = LAYERS * counts * layered * layered * measured.beyond_clean;
         let thickness = given.unwrap_or(of_layers);
-        let is_thick = is_layered || thickness > 0.0;
-        let is_scanned = measured.gap.is_some() || thickness > 0.0;
-        let odds = Odds::of(
-            is_moved.then_some(measured.ratio),
-            is_scanned.then_some(thickness / statistics.spacing),
-            growth,
-        );
+        let is_given = given.is_some_and(|given| given > 0.0);
+        let [thick, scanned] =
+            [layered, measured.scanned].map(|share| if is_given { 1.0 } else { share });
+        let left = scanned * (1.0 - thickness / statistics.spacing / LAYERS).max(0.0);
+        let odds = Odds::of(moved, measured.ratio, left, scanned, growth);
         let mut ring = libm::pow(2.0, -LOOSER_BY_RANGE * growth);
         let mut looser = ring;
-        if is_thick {
+        if thick > 0.0 {
             let cosine = cosine(noise, projection)?;
-            ring *= libm::pow((2.0 * cosine).min(1.0), COSINE_POWER);
-            looser = LOOSER * ring;
+            ring *= libm::pow((2.0 * cosine).min(1.0), COSINE_POWER * thick);
+            looser = libm::pow(LOOSER, thick) * ring;
         }
-        let wide = if is_thick { 0.0 } else { 1.0 - ranged };
+        let wide = (1.0 - thick) * (1.0 - ranged);
         let mut gap = statistics.spacing * libm::pow(noise.widening(statistics), wide);
         gap = larger(gap, gap_of_sheets(noise));
         if growth > 0.0
@@ -139,13 +133,9 @@ impl Tuning {
         Ok(Self {
             scales: scales(gap, looser),
             growth,
-            ring: if is_moved { ring / LOOSER } else { ring },
-            widest: if is_moved || is_thick {
-                // Strays in front of a surface have larger ones, and the triangles between them are none.
-                LEAST * statistics.spacing
-            } else {
-                f64::INFINITY
-            },
+            ring: ring * libm::pow(LOOSER, -moved),
+            // Strays in front of a surface have larger ones, and the triangles between them are none.
+            widest: LEAST * statistics.spacing / (moved + thick).min(1.0),
             wide,
             thickness,
             behind: 0.5 * noise.next_sheet,
@@ -179,7 +169,7 @@ impl Tuning {
             wide: 1.0,
             thickness: 0.0,
             behind: 0.5 * noise.next_sheet,
-            odds: Odds::of(None, None, 0.0),
+            odds: Odds::of(0.0, 0.0, 0.0, 0.0, 0.0),
         }
     }
 }
@@ -195,11 +185,6 @@ fn scales(gap: f64, looser: f64) -> [f64; 3] {
     // Without a spacing there is one point at most, and any scale gives the same answer.
     let gap = if gap > 0.0 { gap } else { 1.0 };
     SHARES.map(|share| (share * gap * looser).clamp(f64::MIN_POSITIVE, f64::MAX))
-}
-
-/// From 0 at the first number to 1 at the second one.
-fn ramp(number: f64, [start, full]: [f64; 2]) -> f64 {
-    ((number - start) / (full - start)).clamp(0.0, 1.0)
 }
 
 /// The samples as they are seen from a viewpoint.
@@ -346,18 +331,16 @@ const NOISE: f64 = -1.4;
 const LEAST_ODDS: f64 = 0.01;
 
 impl Odds {
-    /// `removed` is a length of noise in spacings; `left` is the thickness in spacings, of scans whose points were not
-    /// moved.
-    pub(super) fn of(removed: Option<f64>, left: Option<f64>, growth: f64) -> Self {
-        let shift = match (removed, left) {
-            (Some(removed), _) => NOISE * removed,
-            (None, Some(left)) => SCANNED * (1.0 - left / LAYERS).max(0.0),
-            (None, None) => 0.0,
-        };
-        let is_measured = removed.is_some() || left.is_some();
+    /// `moved` is how far points were moved, `ratio` the noise before in spacings. `left` is 1 on scans without
+    /// thickness.
+    pub(super) fn of(moved: f64, ratio: f64, left: f64, scanned: f64, growth: f64) -> Self {
+        let [clean, measured] = POWERS;
+        let share = moved + (1.0 - moved) * scanned;
+        let removed = if moved > 0.0 { moved * ratio } else { 0.0 };
+        let stay = 1.0 - moved;
         Self {
-            shift: shift + GROWTH * growth,
-            power: POWERS[usize::from(is_measured)],
+            shift: NOISE * removed + stay * stay * SCANNED * left + GROWTH * growth,
+            power: clean * (1.0 - share) + measured * share,
         }
     }
 

@@ -90,7 +90,7 @@ impl PointCloud {
         if looks(options)?.is_none() {
             let view = self.view(viewpoint, options)?;
             if is_in_units(view.farthest)
-                && let Some((champions, levels, _)) = maps.champions(self, false, viewpoint, map)?
+                && let Some((champions, levels, _)) = maps.champions(self, 0.0, viewpoint, map)?
             {
                 made.fill(&champions, levels, &Asked::Hull(&view.flip))?;
             }
@@ -99,10 +99,8 @@ impl PointCloud {
         check_viewpoint(viewpoint)?;
         let survey = self.survey(options.surface, options.thickness)?;
         let source = looked_at(&survey, self);
-        let is_smooth = !core::ptr::eq(source, self);
-        if let Some((champions, levels, apart)) =
-            maps.champions(source, is_smooth, viewpoint, map)?
-        {
+        let moved = survey.as_ref().map_or(0.0, |survey| survey.shares[0]);
+        if let Some((champions, levels, apart)) = maps.champions(source, moved, viewpoint, map)? {
             let thickness = options.thickness;
             let (kernel, depth, farthest) =
                 look_of_map(self, survey.as_ref(), viewpoint, thickness, apart)?;

@@ -19,8 +19,8 @@ const IN_CONE: usize = 3;
 
 /// An even sample of a cloud.
 struct Pool {
-    /// Whether its points were moved to where they would be without noise.
-    is_smooth: bool,
+    /// How far its points were moved to where they would be without noise, from 0 to 1.
+    moved: f64,
     points: Points,
     blocks: Blocks,
 }
@@ -39,7 +39,7 @@ impl MapMemory {
     pub(super) fn champions<'a>(
         &'a mut self,
         cloud: &'a PointCloud,
-        is_smooth: bool,
+        moved: f64,
         viewpoint: [f64; 3],
         map: &MapOptions,
     ) -> Result<Option<(Champions<'a>, &'a mut Levels, f64)>, OutOfMemory> {
@@ -54,14 +54,14 @@ impl MapMemory {
             .points
             .min(LEAST + all.len() / GROWS)
             .saturating_mul(times);
-        let is_same = |pool: &Pool| pool.points.len() == size && pool.is_smooth == is_smooth;
+        let is_same = |pool: &Pool| pool.points.len() == size && pool.moved == moved;
         let kept = pool.take().filter(is_same);
         let (points, blocks) = if size >= all.len() {
             (all, &cloud.blocks)
         } else {
             let kept = match kept {
                 Some(kept) => kept,
-                None => Pool::of(all, size, is_smooth)?,
+                None => Pool::of(all, size, moved)?,
             };
             let pool = pool.insert(kept);
             (&pool.points, &pool.blocks)
@@ -82,13 +82,13 @@ impl MapMemory {
 }
 
 impl Pool {
-    fn of(points: &Points, size: usize, is_smooth: bool) -> Result<Self, OutOfMemory> {
+    fn of(points: &Points, size: usize, moved: f64) -> Result<Self, OutOfMemory> {
         let all = points.len() as u64;
         let mut places = with_capacity(size)?;
         places.extend((0..size as u64).map(|k| (k * all / size as u64) as u32));
         let points = points.gathered(&places)?;
         Ok(Self {
-            is_smooth,
+            moved,
             blocks: Blocks::around(&points)?,
             points,
         })
