@@ -279,7 +279,7 @@ describe("combinations without a meaning", () => {
     [[...FROM, "--radius", "search"], /--radius must be a number, "auto" or "opposite", got "search"/],
     [[...FROM, "--surface", "rough"], /--surface must be "auto", "clean", "noisy" or "layered", got "rough"/],
     [[...FROM, "--looks", "0", "--thickness", "1"], /--thickness can be given only with looks/],
-    [[...FROM, "--within", "1,2"], /--within box must be/],
+    [[...FROM, "--within", "1,2"], /--within needs a distance, or six numbers, as in/],
     [[...FROM, "--vote", "8"], /Unknown option '--vote'$/m],
     [[...FROM, "--from", "1,2,3"], /--from is given twice: several viewpoints stand in a file, --viewpoints FILE/],
     [[...FROM, "--looks", "3", "--looks", "2"], /--looks is given twice/],

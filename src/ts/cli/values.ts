@@ -22,8 +22,12 @@ export function readSize(text: string): { width: number; height: number } {
 /** The value of an option of a view: a number, or else a word. KIND:VALUE is an object. The library checks it. */
 export function readOption(name: string, text: string): unknown {
   if (name === "within") {
-    const numbers = text.split(",").map(readValue);
-    return numbers.length === 1 ? { distance: numbers[0] } : { box: [numbers.slice(0, 3), numbers.slice(3)] };
+    if (!text.includes(",")) return { distance: readValue(text) };
+    const numbers = text.split(",").map(numberIn);
+    if (numbers.length !== 6 || numbers.some(Number.isNaN)) {
+      throw new UsageProblem(`--within needs a distance, or six numbers, as in --within 0,0,0,1,1,1, not ${text}`);
+    }
+    return { box: [numbers.slice(0, 3), numbers.slice(3)] };
   }
   const colon = text.indexOf(":");
   return colon < 0 ? readValue(text) : { [text.slice(0, colon)]: readValue(text.slice(colon + 1)) };
