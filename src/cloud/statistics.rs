@@ -6,9 +6,8 @@
 use alloc::vec::Vec;
 use glam::DVec3;
 
-use crate::base::FULL;
 use crate::base::allocation::{OutOfMemory, filled, with_capacity};
-use crate::base::real::{larger, power_of_two_below, smaller, square_root};
+use crate::base::real::{power_of_two_below, square_root};
 use crate::base::sort::{Keyed, sort_by_numbers};
 use crate::cloud::neighbors::{Nearest, Neighbor, Neighbors};
 use crate::cloud::points::Points;
@@ -19,7 +18,7 @@ use crate::cloud::{filling, surface};
 /// The spacing of a point is its mean distance from this many nearest points.
 pub(crate) const NEIGHBORS: usize = 6;
 /// How many shells around the centroid are told apart before any point is sorted.
-const SHELLS: usize = 1 << 14;
+const SHELLS: usize = 1 << 15;
 
 /// The statistics from which the automatic radius is computed.
 #[derive(Clone, Copy, Debug, Default)]
@@ -124,14 +123,15 @@ pub(crate) struct Sampled {
 /// A place that follows from the cloud alone, away from its symmetries. From the centroid, the corners of a turned part
 /// are equally far, and roundings would choose among them. It is half way to the farthest point, then a quarter of the
 /// way beside that axis and an eighth above that plane. Where points are equally far by a symmetry, any of them will do: the
-/// samples are alike but for it.
-fn corner(points: &Points, vector: impl Fn([f64; 3]) -> DVec3) -> DVec3 {
+/// samples are alike but for it. No point is farther from it than the second number.
+fn corner(points: &Points, vector: impl Fn([f64; 3]) -> DVec3) -> (DVec3, f64) {
     let [mut parts, mut units] = [[DVec3::ZERO; 3]; 2];
     for axis in 0..3 {
         let (mut most, first) = (0.0, parts[0]);
         for v in points.iter().map(&vector) {
             let rest = units
                 .iter()
+                .take(axis)
                 .fold(v, |rest, &unit| rest - unit * v.dot(unit));
             let fit = rest.length_squared() * (v - first).length_squared();
             if fit > most {
@@ -140,7 +140,8 @@ fn corner(points: &Points, vector: impl Fn([f64; 3]) -> DVec3) -> DVec3 {
         }
         units[axis] = parts[axis].normalize_or_zero();
     }
-    parts[0] / 2.0 + parts[1] / 4.0 + parts[2] / 8.0
+    let corner = parts[0] / 2.0 + parts[1] / 4.0 + parts[2] / 8.0;
+    (corner, parts[0].length() + corner.length())
 }
 
 pub(crate) fn sample_of(points: &Points, bounds: &Bounds) -> Result<Sampled, OutOfMemory> {
@@ -157,20 +158,11 @@ pub(crate) fn sample_of(points: &Points, bounds: &Bounds) -> Result<Sampled, Out
     // In this unit no square overflows.
     let unit = power_of_two_below((1.0 / bounds.diagonal()).min(f64::MAX));
     let vector = |p: [f64; 3]| (DVec3::from_array(p) - DVec3::from_array(center)) * unit;
-    let corner = corner(points, vector);
+    let (corner, farthest) = corner(points, vector);
     let squared = |p: [f64; 3]| (vector(p) - corner).length_squared();
-    // Only the shells that hold a wanted point are sorted. They lie between the nearest point and the farthest one, so
-    // that they hold few points each.
-    let (near, far) = if FULL {
-        let distances = points.iter().map(squared);
-        distances.fold((f64::MAX, 0.0f64), |(near, far), d| {
-            (smaller(near, d), larger(far, d))
-        })
-    } else {
-        (0.0, 1.0)
-    };
-    let scale = SHELLS as f64 / (far - near);
-    let shell = |p: [f64; 3]| (((squared(p) - near) * scale) as usize).min(SHELLS - 1);
+    // Only the shells that hold a wanted point are sorted.
+    let scale = SHELLS as f64 / (farthest * farthest);
+    let shell = |p: [f64; 3]| ((squared(p) * scale) as usize).min(SHELLS - 1);
     let mut inside = filled(SHELLS + 1, 0u32)?;
     for p in points.iter() {
         inside[shell(p) + 1] += 1;
